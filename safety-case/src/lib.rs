@@ -1,0 +1,1 @@
+//! Safety analysis and host tools.

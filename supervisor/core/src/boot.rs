@@ -1,0 +1,92 @@
+//! The boot rule (SELF-9): what the reset cause and the persisted record make of the first seconds.
+
+use crate::clock::Ticks;
+use crate::evidence::{Evidence, SeatView};
+use crate::input::{EpbState, Inputs};
+use crate::limits::Config;
+use crate::seat::SeatState;
+use crate::units::Timer;
+use crate::word::{codes, retained};
+
+codes! {
+    /// Why the supervisor starts.
+    ResetCause {
+        /// Power was switched on (key-on).
+        PowerOn = 0,
+        /// The watchdog.
+        Watchdog = 1,
+        /// Anything else: brown-out, software, unknown.
+        Other = 2,
+    }
+    /// What was persisted, protected by the integrator's CRC.
+    Record {
+        /// Nothing.
+        None = 0,
+        /// In leave, or parked by leave.
+        Leave = 1,
+        /// High voltage is being, or was, shut down after leave.
+        HighVoltageDown = 2,
+    }
+    /// Whether the boot rule still waits for seat and parking brake.
+    Pending {
+        /// Settled.
+        Done = 0,
+        /// A clean key-on.
+        Clean = 1,
+        /// Any other boot.
+        Other = 2,
+    }
+}
+
+retained! {
+    /// The boot machine.
+    Boot {
+        /// What it waits for.
+        pending: Pending = Pending::Other,
+        /// How long.
+        wait: Timer = Timer::STOPPED,
+    }
+}
+
+/// What boot decides in a cycle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Verdict {
+    /// Nothing.
+    Nothing,
+    /// A clean key-on with the seat occupied: counts as Off seen.
+    OffSeen,
+    /// Parking brake applied, seat not occupied: parked by leave.
+    ParkedByLeave,
+}
+
+impl Boot {
+    /// `clean` = power-on with an intact record of nothing.
+    pub(crate) const fn new(clean: bool) -> Self {
+        Self { pending: if clean { Pending::Clean } else { Pending::Other }, wait: Timer::STOPPED }
+    }
+
+    pub(crate) fn advance(
+        self,
+        seat: &SeatState,
+        evidence: &Evidence,
+        inputs: &Inputs,
+        ticks: Ticks,
+        config: &Config,
+    ) -> (Self, Verdict) {
+        let wait = self.wait.run_while(self.pending != Pending::Done, ticks.safety);
+        let settled = evidence.seat == SeatView::Vacant || wait.reached(config.boot_settle);
+        let done = Self { pending: Pending::Done, wait: Timer::STOPPED };
+        match (self.pending, seat.confirmed(config)) {
+            (Pending::Done, _) => (done, Verdict::Nothing),
+            (Pending::Clean, true) => (done, Verdict::OffSeen),
+            (Pending::Other, true) => (done, Verdict::Nothing),
+            (Pending::Clean | Pending::Other, false) if settled && inputs.epb.is(EpbState::Applied) => {
+                (done, Verdict::ParkedByLeave)
+            }
+            (Pending::Clean | Pending::Other, false) if settled && inputs.epb.is(EpbState::Released) => {
+                (done, Verdict::Nothing)
+            }
+            (pending @ (Pending::Clean | Pending::Other), false) => (Self { pending, wait }, Verdict::Nothing),
+        }
+    }
+}

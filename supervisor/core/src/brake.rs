@@ -1,0 +1,211 @@
+//! How much must the bus brake, and how much may it? (SEAT-3, MIT, PHB-1, TRQ-3, TRQ-4, E2E-2, RET-1, VLC-2)
+
+use crate::clock::Ticks;
+use crate::command::Outputs;
+use crate::drive::Mode;
+use crate::envelope::{Bound, BrakeBound};
+use crate::evidence::{BrakePedal, Evidence, SeatView};
+use crate::input::{EpbState, Inputs};
+use crate::limits::Config;
+use crate::mitigation::Mitigation;
+use crate::threat::Threat;
+use crate::units::{DecelMs2Q11, Millis, Pedal250, Percent, SpeedKmhQ8, Timer};
+use crate::verdict::Reason;
+use crate::word::retained;
+
+retained! {
+    /// The brake machine.
+    Brake {
+        /// Last output of the service brake.
+        total: DecelMs2Q11 = DecelMs2Q11::ZERO,
+        /// Last output of the retarder.
+        retarder: Percent = Percent::ZERO,
+        /// The service-brake command is lost.
+        lost: Timer = Timer::STOPPED,
+        /// The retarder command is lost.
+        retarder_lost: Timer = Timer::STOPPED,
+        /// Last demand of leave (SEAT-3).
+        leave: DecelMs2Q11 = DecelMs2Q11::ZERO,
+        /// How long the brake lamps still stay on (BODY-1).
+        lamps: Millis = Millis::ZERO,
+    }
+}
+
+/// What the brake bound depends on beside the inputs.
+pub(crate) struct Situation<'a> {
+    pub mitigation: &'a Mitigation,
+    pub threat: &'a Threat,
+    pub mode: Mode,
+    pub safe_state: bool,
+}
+
+/// a₀(v) of S3 table 1: linear between the points, rounded up; beyond 60 km/h its last value (reading e).
+pub(crate) fn leave_table(speed: SpeedKmhQ8, config: &Config) -> DecelMs2Q11 {
+    /// The points lie 2 km/h apart up to 10 km/h, then 5 km/h.
+    const FINE: u16 = 512;
+    const COARSE: u16 = 1280;
+    const KNEE: u16 = 2560;
+    let raw = speed.raw();
+    let (index, rest, step) = if raw < KNEE {
+        (raw / FINE, raw % FINE, FINE)
+    } else {
+        let above = raw.saturating_sub(KNEE);
+        ((above / COARSE).saturating_add(5), above % COARSE, COARSE)
+    };
+    let index = usize::from(index);
+    let point =
+        |index: usize| config.leave_decel.0.get(index).or(config.leave_decel.0.last()).map_or(0, |decel| decel.raw());
+    let (here, next) = (point(index), point(index.saturating_add(1)));
+    let rise = u32::from(next.saturating_sub(here)).saturating_mul(u32::from(rest)).div_ceil(u32::from(step));
+    DecelMs2Q11::new(here.saturating_add(u16::try_from(rise).unwrap_or(u16::MAX)))
+}
+
+impl Brake {
+    /// SEAT-3: the demand of leave, kept for the cycles without a speed.
+    pub(crate) fn advance(self, leave: bool, evidence: &Evidence, inputs: &Inputs, config: &Config) -> Self {
+        let demand = match (leave, evidence.speed) {
+            (false, _) => DecelMs2Q11::ZERO,
+            (true, None) => self.leave.max(config.leave_hold),
+            (true, Some(speed)) => {
+                let table = leave_table(speed.low, config);
+                let holds = speed.low < config.leave_hold_speed && !inputs.epb.is(EpbState::Applied);
+                if holds { table.max(config.leave_hold) } else { table }
+            }
+        };
+        Self { leave: demand, ..self }
+    }
+
+    /// After vetting: what went out, and whether the commands were usable.
+    pub(crate) fn record(
+        self,
+        outputs: &Outputs,
+        bound: &BrakeBound,
+        usable: [bool; 2],
+        ticks: Ticks,
+        config: &Config,
+    ) -> Self {
+        let [brake_usable, retarder_usable] = usable;
+        let demanded = bound.lamps_due(outputs, config.lamp_decel);
+        Self {
+            total: outputs.brake.total,
+            retarder: outputs.retarder.torque,
+            lost: self.lost.run_while(!brake_usable, ticks.safety),
+            retarder_lost: self.retarder_lost.run_while(!retarder_usable, ticks.safety),
+            lamps: if demanded {
+                config.lamp_delay
+            } else {
+                Millis::new(self.lamps.raw().saturating_sub(ticks.permission.raw()))
+            },
+            ..self
+        }
+    }
+
+    pub(crate) fn bound(
+        &self,
+        situation: &Situation,
+        evidence: &Evidence,
+        inputs: &Inputs,
+        ticks: Ticks,
+        config: &Config,
+    ) -> BrakeBound {
+        let floor = self.floor(situation, evidence, config);
+        let slip = !(inputs.abs.is(false) && inputs.asr.is(false) && inputs.stability.is(false));
+        let electric = if slip { None } else { inputs.electric_limit.known() };
+        let mut retarder = Bound { most: Percent::FULL, reason: Reason::BrakeCap };
+        // RET-1: off while ABS works.
+        retarder.lower_if(inputs.abs.is(true), Percent::ZERO, Reason::AntiLock);
+        BrakeBound {
+            floor,
+            cap: cap(situation, floor, evidence, config),
+            fallback: self.faded(self.total, self.lost, ticks, config),
+            retarder_fallback: if self.retarder_lost.reached(config.brake_hold) {
+                Percent::ZERO
+            } else {
+                self.retarder
+            },
+            // VLC-2: unknown limit, or slip control at work or unknown: no electric part; friction fills up.
+            electric: electric.unwrap_or(DecelMs2Q11::ZERO),
+            retarder,
+            retarder_decel: config.retarder_decel,
+        }
+    }
+
+    /// What must be: the greatest obligation.
+    fn floor(&self, situation: &Situation, evidence: &Evidence, config: &Config) -> Bound<DecelMs2Q11> {
+        let mut floor = Bound { most: DecelMs2Q11::ZERO, reason: Reason::Within };
+        floor.raise(situation.mitigation.demand(config), Reason::Mitigation);
+        if situation.mitigation.hold {
+            floor.raise(config.leave_hold, Reason::SpeedlessHold);
+        }
+        floor.raise(self.leave, Reason::Leave);
+        if situation.safe_state {
+            // SELF-5: a₀(v) if the seat is known vacant, 1.35 m/s² below 2 km/h.
+            if evidence.seat == SeatView::Vacant {
+                let table = evidence.speed.map_or(config.leave_hold, |speed| leave_table(speed.low, config));
+                floor.raise(table, Reason::SafeState);
+            }
+            if evidence.obliged_below(config.leave_hold_speed) {
+                floor.raise(config.leave_hold, Reason::SafeState);
+            }
+        }
+        floor
+    }
+
+    /// E2E-2: a lost request holds for a while, then falls to nothing.
+    fn faded(&self, last: DecelMs2Q11, lost: Timer, ticks: Ticks, config: &Config) -> DecelMs2Q11 {
+        if !lost.reached(config.brake_hold) {
+            return last;
+        }
+        let step = u32::from(config.brake_ramp.raw()).saturating_mul(ticks.safety.raw()).div_ceil(1000);
+        DecelMs2Q11::new(last.raw().saturating_sub(u16::try_from(step).unwrap_or(u16::MAX)))
+    }
+}
+
+impl BrakeBound {
+    /// BODY-1: brake lamps are due by the total deceleration or an obligation.
+    pub(crate) fn lamps_due(&self, outputs: &Outputs, threshold: DecelMs2Q11) -> bool {
+        self.total(outputs) >= threshold || self.floor.most > DecelMs2Q11::ZERO
+    }
+
+    /// Service brake and retarder together (RET-1).
+    #[must_use]
+    pub fn total(&self, outputs: &Outputs) -> DecelMs2Q11 {
+        let retarder = self.decel_of(outputs.retarder.torque);
+        DecelMs2Q11::new(outputs.brake.total.raw().saturating_add(retarder.raw()))
+    }
+
+    /// Deceleration of a retarder torque, rounded up.
+    pub(crate) fn decel_of(&self, torque: Percent) -> DecelMs2Q11 {
+        let product = u32::from(self.retarder_decel.raw()).saturating_mul(u32::from(torque.raw()));
+        DecelMs2Q11::new(u16::try_from(product.div_ceil(100)).unwrap_or(u16::MAX))
+    }
+}
+
+/// What may be: PHB-1, TRQ-3, TRQ-4. Never below the floor, never below what the driver's pedal asks for.
+fn cap(situation: &Situation, floor: Bound<DecelMs2Q11>, evidence: &Evidence, config: &Config) -> Bound<DecelMs2Q11> {
+    let threat = situation.threat;
+    let hazard = !threat.known || threat.emergency || situation.mitigation.three || situation.safe_state;
+    let mut cap = Bound { most: config.brake_cap, reason: Reason::BrakeCap };
+    // PHB-1: the comfort cap needs its own evidence, a road known to be clear.
+    cap.lower_if(!hazard, config.comfort_cap, Reason::PhantomBraking);
+    // TRQ-3, TRQ-4: no comfort braking against the driver's own pedals; mitigation stays permitted.
+    let mitigable = hazard || threat.mitigable || situation.mitigation.running();
+    match evidence.brake_pedal {
+        BrakePedal::Released => {}
+        BrakePedal::Pressed(travel) => {
+            cap.lower_if(!mitigable, DecelMs2Q11::ZERO, Reason::BrakePedal);
+            cap.raise(pedal_decel(travel, config), Reason::BrakePedal);
+        }
+        BrakePedal::Unknown => cap.lower_if(!mitigable, config.drag_decel, Reason::BrakePedal),
+    }
+    cap.lower_if(!mitigable && situation.mode == Mode::Suspended, DecelMs2Q11::ZERO, Reason::DriverOverride);
+    cap.raise(floor.most, floor.reason);
+    cap
+}
+
+/// What the driver's brake pedal asks for, with the drag that goes with no pedal at all.
+fn pedal_decel(travel: Pedal250, config: &Config) -> DecelMs2Q11 {
+    let share = u32::from(config.pedal_decel.raw()).saturating_mul(u32::from(travel.raw())).div_ceil(250);
+    let total = share.saturating_add(u32::from(config.drag_decel.raw())).min(u32::from(config.brake_cap.raw()));
+    DecelMs2Q11::new(u16::try_from(total).unwrap_or(u16::MAX))
+}

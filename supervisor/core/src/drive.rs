@@ -1,0 +1,257 @@
+//! Who drives, and how much torque is permitted? (S2; TRQ-1 to TRQ-6, SPD-1, MODE-1)
+
+use crate::clock::Ticks;
+use crate::command::{DrivingMode, Origin, Outputs};
+use crate::envelope::{Bound, Permission, TorqueBound, all};
+use crate::evidence::{BrakePedal, Evidence, percent};
+use crate::input::{AdsState, EpbState, Gear, Inputs};
+use crate::limits::Config;
+use crate::threat::Threat;
+use crate::units::{DecelMs2Q11, Millis, Pedal250, Percent, PercentPerS, SpeedKmhQ8, Timer};
+use crate::verdict::{ExitReason, Reason};
+use crate::word::{codes, retained};
+
+codes! {
+    /// The longitudinal mode as granted.
+    Mode {
+        /// The driver drives.
+        Manual = 0,
+        /// Automated.
+        Automated = 1,
+        /// Automated, but the driver's accelerator governs for now (TRQ-4).
+        Suspended = 2,
+    }
+}
+
+retained! {
+    /// The drive machine.
+    Drive {
+        /// The mode.
+        mode: Mode = Mode::Manual,
+        /// Why the last automated mode ended.
+        exit: ExitReason = ExitReason::None,
+        /// Last output torque.
+        torque: Percent = Percent::ZERO,
+        /// Last output torque of ADAS or EPBi; 0 if the driver's passed.
+        automated: Percent = Percent::ZERO,
+        /// After leave: the accelerator must be seen released (TRQ-5).
+        release_needed: bool = false,
+        /// Torque against the brake (TRQ-6); runs until the brake demand ends.
+        hill: Timer = Timer::STOPPED,
+    }
+}
+
+/// What the drive bounds depend on beside the inputs.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Obligations {
+    /// A mitigation latch or its hold.
+    pub mitigation: bool,
+    /// Leave.
+    pub leave: bool,
+    /// Safe state.
+    pub safe_state: bool,
+    /// Clock fault in this cycle.
+    pub clock_fault: bool,
+    /// High voltage is being, or was, shut down after leave.
+    pub shutdown: bool,
+    /// The seat is confirmed occupied.
+    pub confirmed: bool,
+    /// The driver has taken over the steering.
+    pub takeover: bool,
+    /// The brake command has been lost for longer than it is held.
+    pub brake_lost: bool,
+}
+
+impl Obligations {
+    const fn reason(self) -> Option<Reason> {
+        if self.safe_state {
+            Some(Reason::SafeState)
+        } else if self.leave {
+            Some(Reason::Leave)
+        } else if self.mitigation {
+            Some(Reason::Mitigation)
+        } else {
+            None
+        }
+    }
+}
+
+impl Drive {
+    pub(crate) fn advance(
+        self,
+        must: Obligations,
+        threat: &Threat,
+        evidence: &Evidence,
+        inputs: &Inputs,
+        config: &Config,
+    ) -> Self {
+        let released = evidence.accelerator.is_some_and(|travel| travel <= config.pedal_pressed);
+        let release_needed = must.leave || (self.release_needed && !released);
+        let (mode, exit) = match (self.mode, exit_reason(must, threat, evidence, inputs)) {
+            (Mode::Manual, _) => (Mode::Manual, self.exit),
+            (Mode::Automated | Mode::Suspended, Some(reason)) => (Mode::Manual, reason),
+            (Mode::Automated | Mode::Suspended, None) => {
+                let over = self.overridden(evidence, config) && !must.mitigation;
+                (if over { Mode::Suspended } else { Mode::Automated }, self.exit)
+            }
+        };
+        Self { mode, exit, release_needed, ..self }
+    }
+
+    /// TRQ-4: whether the driver's accelerator overrides.
+    fn overridden(&self, evidence: &Evidence, config: &Config) -> bool {
+        let before = self.mode == Mode::Suspended;
+        let Some(travel) = evidence.accelerator else { return before };
+        if self.automated == Percent::ZERO {
+            return travel > config.override_least;
+        }
+        // Pedal in 0.4 %, torque in 1 %: both in 0.2 %.
+        let pedal = u16::from(travel.raw()).saturating_mul(2);
+        let torque = u16::from(self.automated.raw());
+        let offset = u16::from(config.override_offset.raw());
+        if pedal > torque.saturating_add(offset).saturating_mul(5) {
+            true
+        } else if pedal < torque.saturating_mul(5) {
+            false
+        } else {
+            before
+        }
+    }
+
+    /// After vetting: what went out.
+    pub(crate) fn record(self, outputs: &Outputs, ticks: Ticks) -> Self {
+        let against = outputs.drive.torque > Percent::ZERO && outputs.brake.total > DecelMs2Q11::ZERO;
+        let hill = if outputs.brake.total == DecelMs2Q11::ZERO {
+            Timer::STOPPED
+        } else if against || self.hill.is_running() {
+            self.hill.run(ticks.safety)
+        } else {
+            self.hill
+        };
+        let (mode, exit) = match (self.mode, outputs.mode) {
+            (Mode::Manual, DrivingMode::Automated) => (Mode::Automated, ExitReason::None),
+            (Mode::Automated | Mode::Suspended, DrivingMode::Manual) => (Mode::Manual, ExitReason::Requested),
+            (mode, _) => (mode, self.exit),
+        };
+        let automated = if outputs.drive.origin == Origin::Driver { Percent::ZERO } else { outputs.drive.torque };
+        Self { mode, exit, torque: outputs.drive.torque, automated, hill, ..self }
+    }
+
+    /// MODE-1: the automated mode may begin (from manual) or go on.
+    pub(crate) fn permission(
+        &self,
+        must: Obligations,
+        threat: &Threat,
+        evidence: &Evidence,
+        inputs: &Inputs,
+    ) -> Permission {
+        let healthy = exit_reason(must, threat, evidence, inputs).is_none();
+        let running = self.mode != Mode::Manual;
+        let evidence_of_driver = inputs.driver_set.is(true) && must.confirmed;
+        all(&[
+            (!must.clock_fault, Reason::ClockFault),
+            (must.reason().is_none() || running, must.reason().unwrap_or(Reason::Within)),
+            (healthy && (running || evidence_of_driver), Reason::ModeNotGranted),
+        ])
+    }
+
+    /// The torque bounds of this cycle.
+    pub(crate) fn bound(
+        &self,
+        must: Obligations,
+        granted: Permission,
+        threat: &Threat,
+        evidence: &Evidence,
+        inputs: &Inputs,
+        ticks: Ticks,
+        config: &Config,
+    ) -> TorqueBound {
+        let mut common = Bound { most: Percent::FULL, reason: Reason::DriveLimit };
+        let mut refuse = |condition, reason| common.lower_if(condition, Percent::ZERO, reason);
+        if let Some(reason) = must.reason() {
+            refuse(true, reason);
+        }
+        refuse(self.release_needed, Reason::ReleaseNeeded);
+        refuse(must.shutdown, Reason::Shutdown);
+        // SEAT-6: without a confirmed driver no torque when slow, parked, or neither known.
+        let moving = evidence.surely_at_least(config.epb_speed) && inputs.epb.is(EpbState::Released);
+        refuse(!must.confirmed && !moving, Reason::SeatNotOccupied);
+        // TRQ-6: only in a confirmed direction.
+        refuse(!matches!(inputs.gear.known(), Some(Gear::Drive | Gear::Reverse)), Reason::GearDirection);
+        // TRQ-5: electric limit; unknown ⇒ none.
+        common.lower(percent(inputs.drive_limit).unwrap_or(Percent::ZERO), Reason::DriveLimit);
+        // TRQ-5: rises are limited, falls never.
+        common.lower(self.ramped(config.torque_ramp, ticks.permission), Reason::TorqueRamp);
+        // RSP-1: slip control at work (or unknown): no rise.
+        common.lower_if(!inputs.asr.is(false), self.torque, Reason::SlipControl);
+
+        let mut driver = common;
+        match evidence.accelerator {
+            None => driver.lower(Percent::ZERO, Reason::AcceleratorUnknown),
+            Some(travel) => driver.lower(pedal_map(travel, config), Reason::PedalMap),
+        }
+        let both = evidence.brake_pedal != BrakePedal::Released && evidence.accelerator_pressed;
+        driver.lower_if(both, Percent::ZERO, Reason::BothPedals);
+
+        let mut automated = common;
+        automated.lower_if(evidence.brake_pedal != BrakePedal::Released, Percent::ZERO, Reason::BrakePedal);
+        automated.lower_if(self.mode == Mode::Suspended, Percent::ZERO, Reason::DriverOverride);
+        automated.lower_if(self.mode == Mode::Manual || granted.is_err(), Percent::ZERO, Reason::ModeNotGranted);
+        automated.lower_if(!threat.known, Percent::ZERO, Reason::PerceptionUnknown);
+        automated.lower(config.automated_torque, Reason::AccelerationBound);
+
+        let hill_hold =
+            must.confirmed && evidence.surely_below(config.hill_hold_speed) && !self.hill.reached(config.hill_hold);
+        TorqueBound { driver, automated, idle: config.idle_torque, hill_hold }
+    }
+
+    /// TRQ-5: the last output plus what the gradient allows in this cycle.
+    fn ramped(&self, ramp: PercentPerS, elapsed: Millis) -> Percent {
+        let rise = u32::from(ramp.raw()).saturating_mul(elapsed.raw()) / 1000;
+        Percent::new(self.torque.raw().saturating_add(u8::try_from(rise).unwrap_or(u8::MAX)).min(100))
+    }
+
+    /// SPD-1: the limit, and nothing while an obligation runs or the mode is manual.
+    pub(crate) fn target_speed(&self, must: Obligations, granted: Permission, config: &Config) -> Bound<SpeedKmhQ8> {
+        let mut bound = Bound { most: config.speed_limit, reason: Reason::SpeedLimit };
+        if let Some(reason) = must.reason() {
+            bound.lower(SpeedKmhQ8::ZERO, reason);
+        }
+        bound.lower_if(self.mode == Mode::Manual || granted.is_err(), SpeedKmhQ8::ZERO, Reason::ModeNotGranted);
+        bound
+    }
+}
+
+/// TRQ-1: the map of accelerator to torque, linear between its points, plus its tolerance.
+///
+/// A pedal that is not pressed asks for nothing: the tolerance begins with the pedal.
+fn pedal_map(travel: Pedal250, config: &Config) -> Percent {
+    /// The points lie 10 % = 25 × 0.4 % apart.
+    const STEP: u8 = 25;
+    if travel <= config.pedal_pressed {
+        return Percent::ZERO;
+    }
+    let index = usize::from(travel.raw() / STEP);
+    let rest = u16::from(travel.raw() % STEP);
+    let point =
+        |index: usize| config.pedal_map.0.get(index).or(config.pedal_map.0.last()).map_or(0, |torque| torque.raw());
+    let (here, next) = (point(index), point(index.saturating_add(1)));
+    let rise = u16::from(next.saturating_sub(here)).saturating_mul(rest) / u16::from(STEP);
+    let torque = here.saturating_add(u8::try_from(rise).unwrap_or(u8::MAX));
+    Percent::new(torque.saturating_add(config.pedal_tolerance.raw()).min(100))
+}
+
+/// MODE-1: the first reason for which the automated mode may not go on.
+fn exit_reason(must: Obligations, threat: &Threat, evidence: &Evidence, inputs: &Inputs) -> Option<ExitReason> {
+    let reasons = [
+        (must.safe_state || must.clock_fault, ExitReason::Fault),
+        (must.leave, ExitReason::Leave),
+        (evidence.brake_pedal != BrakePedal::Released, ExitReason::BrakePedal),
+        (must.takeover, ExitReason::Takeover),
+        (!inputs.cruise_switch.is(true), ExitReason::Switch),
+        (!matches!(inputs.ads.known(), Some(AdsState::Ready | AdsState::Active)), ExitReason::AdsState),
+        (must.brake_lost, ExitReason::CommandLost),
+        (!threat.known || evidence.speed.is_none() || evidence.accelerator.is_none(), ExitReason::InputLost),
+    ];
+    reasons.into_iter().find(|(holds, _)| *holds).map(|(_, reason)| reason)
+}

@@ -1,0 +1,201 @@
+//! Contactors: K4 opens before K1, under no load, at standstill; they close only after a restart by the driver
+//! (S3 §2.6, SEAT-7, SEAT-8, SEAT-11, HV-1).
+//!
+//! # Invariants (each holds in the cycle of the command, not in some earlier one)
+//! - K1 may open ⇒ K4 known open, drive and auxiliaries known stopped, standstill;
+//! - K4 may open ⇒ standstill, executed torque known to be none (our own torque: `vet`);
+//! - K1 may close ⇒ restart complete and K4 known open; K4 may close ⇒ restart complete and K1 known closed.
+
+use crate::clock::Ticks;
+use crate::envelope::{ContactorBound, Permission, all};
+use crate::evidence::{Evidence, SeatView, percent};
+use crate::input::{Contact, EpbState, Inputs, Key};
+use crate::limits::Config;
+use crate::parking::Parking;
+use crate::seat::SeatState;
+use crate::units::Timer;
+use crate::verdict::Reason;
+use crate::word::{codes, retained};
+
+codes! {
+    /// How far the shutdown after leave has gone.
+    Stage {
+        /// Not begun.
+        Up = 0,
+        /// Committed: K4 opens.
+        OpeningK4 = 1,
+        /// K4 was confirmed open: loads stop, then K1 opens.
+        OpeningK1 = 2,
+        /// Both were confirmed open.
+        Down = 3,
+    }
+    /// The driver's restart: seat confirmed occupied, key Off, key Start, in that order.
+    Restart {
+        /// Nothing of it.
+        Idle = 0,
+        /// Seat confirmed and key Off seen.
+        OffSeen = 1,
+        /// Key Start (edge) seen after that: closing is permitted.
+        Started = 2,
+    }
+    /// The key as last known, for the edge.
+    LastKey {
+        /// Never known.
+        None = 0,
+        /// Off.
+        Off = 1,
+        /// On.
+        On = 2,
+        /// Start.
+        Start = 3,
+    }
+}
+
+retained! {
+    /// The high-voltage machine.
+    HighVoltage {
+        /// Shutdown after leave.
+        stage: Stage = Stage::Up,
+        /// Time parked by leave with an empty seat and the parking brake confirmed.
+        parked: Timer = Timer::STOPPED,
+        /// Time in the present stage.
+        wait: Timer = Timer::STOPPED,
+        /// The driver's restart.
+        restart: Restart = Restart::Idle,
+        /// The key as last known.
+        key: LastKey = LastKey::None,
+    }
+}
+
+/// Both bounds.
+pub(crate) struct Bounds {
+    pub k4: ContactorBound,
+    pub k1: ContactorBound,
+}
+
+impl HighVoltage {
+    /// `clean` says that a clean key-on counts as Off seen in this cycle (SELF-9).
+    pub(crate) fn advance(
+        self,
+        parking: &Parking,
+        seat: &SeatState,
+        clean: bool,
+        evidence: &Evidence,
+        inputs: &Inputs,
+        ticks: Ticks,
+        config: &Config,
+    ) -> Self {
+        let parked = if parking.by_leave {
+            self.parked_for(evidence, inputs, ticks, seat.confirmed(config))
+        } else {
+            Timer::STOPPED
+        };
+        let (k4_open, k1_open) = (inputs.k4.is(Contact::Open), inputs.k1.is(Contact::Open));
+        let restart = self.restart(seat, clean, evidence, inputs, config);
+        let begin = parked.reached(config.shutdown_after)
+            && !(k4_open && k1_open)
+            && evidence.standstill
+            && inputs.epb.is(EpbState::Applied)
+            && torque_stopped(inputs, config);
+        let stage = match self.stage {
+            Stage::Up if begin => Stage::OpeningK4,
+            // SEAT-8: only a complete restart leads up again, and never out of a committed sequence.
+            Stage::Down if restart == Restart::Started => Stage::Up,
+            Stage::OpeningK4 if k4_open => Stage::OpeningK1,
+            Stage::OpeningK1 if k4_open && k1_open => Stage::Down,
+            Stage::Up => Stage::Up,
+            Stage::OpeningK4 => Stage::OpeningK4,
+            Stage::OpeningK1 => Stage::OpeningK1,
+            Stage::Down => Stage::Down,
+        };
+        let same = stage == self.stage;
+        let wait = (if same { self.wait } else { Timer::STOPPED }).run_while(stage != Stage::Up, ticks.safety);
+        let key = match inputs.key.known() {
+            None => self.key,
+            Some(Key::Off) => LastKey::Off,
+            Some(Key::On) => LastKey::On,
+            Some(Key::Start) => LastKey::Start,
+        };
+        Self { stage, parked, wait, restart, key }
+    }
+
+    /// SEAT-7, SEAT-9, SEAT-11: the 10 minutes.
+    fn parked_for(self, evidence: &Evidence, inputs: &Inputs, ticks: Ticks, confirmed: bool) -> Timer {
+        if confirmed || inputs.epb.is(EpbState::Released) {
+            return Timer::STOPPED;
+        }
+        let continues = match evidence.seat {
+            SeatView::Vacant => true,
+            SeatView::Unknown => self.parked.is_running(),
+            SeatView::Occupied | SeatView::HalfOccupied => false,
+        };
+        if continues && inputs.epb.is(EpbState::Applied) { self.parked.run(ticks.permission) } else { self.parked }
+    }
+
+    /// SEAT-8: seat confirmed occupied, key Off, key Start (edge), in that order, seat not lost between.
+    fn restart(self, seat: &SeatState, clean: bool, evidence: &Evidence, inputs: &Inputs, config: &Config) -> Restart {
+        let sits = seat.confirmed(config) && evidence.seat == SeatView::Occupied;
+        let both_closed = inputs.k1.is(Contact::Closed) && inputs.k4.is(Contact::Closed);
+        let edge = self.key != LastKey::Start && self.key != LastKey::None;
+        match (sits, inputs.key.known(), self.restart) {
+            (false, _, _) => Restart::Idle,
+            (true, Some(Key::Off), _) => Restart::OffSeen,
+            (true, Some(Key::Start), Restart::OffSeen) if edge => Restart::Started,
+            // Used up once both are closed: what drops out later does not re-close by itself (HV-1).
+            (true, _, Restart::Started) if both_closed => Restart::Idle,
+            (true, _, Restart::Started) => Restart::Started,
+            (true, _, Restart::Idle) if clean => Restart::OffSeen,
+            (true, _, state) => state,
+        }
+    }
+
+    /// SEAT-7: K4 was not confirmed open in time.
+    pub(crate) fn k4_overdue(&self, config: &Config) -> bool {
+        self.stage == Stage::OpeningK4 && self.wait.reached(config.k4_deadline)
+    }
+    /// SEAT-7: the loads did not stop, or K1 was not confirmed open, in time.
+    pub(crate) fn k1_overdue(&self, config: &Config) -> bool {
+        self.stage == Stage::OpeningK1 && self.wait.reached(config.k1_deadline)
+    }
+
+    /// The bounds of this cycle.
+    pub(crate) fn bounds(&self, evidence: &Evidence, inputs: &Inputs, held: Option<Reason>, config: &Config) -> Bounds {
+        let standing: Permission = held.map_or_else(|| all(&[(evidence.standstill, Reason::NotStandstill)]), Err);
+        let committed = matches!(self.stage, Stage::OpeningK4 | Stage::OpeningK1);
+        let k4_open = standing.and_then(|()| all(&[(torque_stopped(inputs, config), Reason::LoadsNotStopped)]));
+        let k1_open = standing.and_then(|()| {
+            all(&[
+                (inputs.k4.is(Contact::Open), Reason::K4NotOpen),
+                (loads_stopped(inputs, config), Reason::LoadsNotStopped),
+            ])
+        });
+        // SEAT-8, HV-1: closing needs the driver's restart, and no shutdown in progress.
+        let closing = held.map_or_else(
+            || all(&[(!committed, Reason::Shutdown), (self.restart == Restart::Started, Reason::NoRestart)]),
+            Err,
+        );
+        let k1_close = closing.and_then(|()| all(&[(inputs.k4.is(Contact::Open), Reason::K4NotOpen)]));
+        let k4_close = closing.and_then(|()| all(&[(inputs.k1.is(Contact::Closed), Reason::K1NotClosed)]));
+        Bounds {
+            // The guards stand inside the obligation (rule 4): guard lost ⇒ it waits.
+            k4: ContactorBound { obliged: committed && k4_open.is_ok(), open: k4_open, close: k4_close },
+            k1: ContactorBound {
+                obliged: self.stage == Stage::OpeningK1 && k1_open.is_ok(),
+                open: k1_open,
+                close: k1_close,
+            },
+        }
+    }
+}
+
+/// No drive torque is executed.
+fn torque_stopped(inputs: &Inputs, config: &Config) -> bool {
+    percent(inputs.executed_torque).is_some_and(|torque| torque <= config.stopped_torque)
+}
+
+/// Drive and auxiliaries are confirmed stopped, and so says the current.
+fn loads_stopped(inputs: &Inputs, config: &Config) -> bool {
+    let bound = config.stopped_current.raw().unsigned_abs();
+    let current = inputs.hv_current.known().is_some_and(|current| current.raw().unsigned_abs() <= bound);
+    inputs.drive_stopped.is(true) && inputs.auxiliaries_stopped.is(true) && current
+}

@@ -1,0 +1,91 @@
+//! Decision core of the bus safety supervisor.
+//!
+//! Principles:
+//! 1. **Obligation needs evidence of a hazard; permission needs evidence of safety.** Unknown is evidence for
+//!    neither, and never cancels an obligation that has begun.
+//! 2. **Two cuts.** [`Threat`] is what perception says, any value legal; [`Envelope`] is what must and may happen
+//!    in this cycle. [`decide()`] goes from one to the other, [`vet()`] applies the second. Both are pure.
+//! 3. **[`step()`] is the only way in**, for the target, tests, proofs, fuzzers, replay and the C ABI.
+//! 4. **Every state is legal.** No proof needs an invariant between machines; state rests as integers beside their
+//!    complement, and what does not decode is the safe state.
+//! 5. **No division of labour with the main controller**: nothing it says is evidence.
+//!
+//! Where to look: may the parking brake be released? `parking.rs`. Contactors: `high_voltage.rs`. How much must,
+//! and may, the bus brake? `brake.rs`. Torque and mode: `drive.rs`. Every number: `limits.rs`.
+#![no_std]
+#![forbid(unsafe_code)]
+#![deny(
+    clippy::arithmetic_side_effects,
+    clippy::float_arithmetic,
+    clippy::indexing_slicing,
+    clippy::string_slice,
+    clippy::unreachable,
+    clippy::integer_division_remainder_used
+)]
+
+#[cfg(kani)]
+extern crate kani;
+
+mod boot;
+mod brake;
+mod clock;
+mod command;
+mod decide;
+mod drive;
+mod envelope;
+mod evidence;
+mod gear;
+mod high_voltage;
+mod input;
+mod limits;
+mod mitigation;
+mod parking;
+mod sealed;
+mod seat;
+mod state;
+mod steering;
+mod step;
+mod threat;
+mod units;
+mod verdict;
+mod vet;
+mod word;
+
+pub use boot::{Boot, Pending, Record, ResetCause};
+pub use brake::Brake;
+pub use clock::Clock;
+pub use command::{
+    Auxiliaries, Body, BrakeMode, Channel, Command, Commands, ContactorRequest, Contactors, DriveTorque, DrivingMode,
+    EpbRequest, GearRequest, Origin, Outputs, ParkingBrake, Priority, Rejection, Retarder, RetarderMode, ServiceBrake,
+    Steering, Warnings, Wiper,
+};
+pub use decide::{Decided, decide};
+pub use drive::{Drive, Mode};
+pub use envelope::{
+    Bound, BrakeBound, ContactorBound, Envelope, EpbBound, GearBound, Permission, SteeringBound, Timeouts, TorqueBound,
+    WarningBound,
+};
+pub use gear::{Direction, GearState};
+pub use high_voltage::{HighVoltage, LastKey, Restart, Stage};
+pub use input::{
+    AdsState, Cause, Contact, EpbMode, EpbState, EpbSwitch, EpsState, Gear, Inputs, Key, Seat, Signal, XbrStatus,
+};
+pub use limits::{Config, LIMITS, Limit, Row};
+pub use mitigation::Mitigation;
+pub use parking::{Parking, PedalChain};
+pub use sealed::{ConfigError, SEALED_BYTES, Sealed};
+pub use seat::SeatState;
+pub use state::{STATE_WORDS, State, StateImage};
+pub use steering::SteeringState;
+pub use step::{Decision, Occupancy, Status, record, step};
+pub use threat::{Alert, Closing, Level, Object, Threat};
+pub use units::{
+    AngleDeciDeg, BarTorque50mNm, ClosingCmS, Count, CurrentDeciA, DecelMs2Q11, DistanceCm, Millis, OffsetCm, Pedal250,
+    Percent, PercentPerS, RateDeciDegS, SpeedKmhQ8, Timer, TorqueNmQ10,
+};
+pub use verdict::{ExitReason, Faults, Kind, Reason, Verdict, Verdicts};
+pub use vet::{
+    vet, vet_auxiliaries, vet_body, vet_brake, vet_contactors, vet_drive, vet_epb, vet_gear, vet_mode, vet_retarder,
+    vet_steering, vet_target_speed, vet_warnings,
+};
+pub use word::{Word, Words};

@@ -1,0 +1,126 @@
+//! Collision mitigation: three independent latches and two warnings (S1 §3.1.2; MIT-1 to MIT-7, FCW-1, PCW-1).
+//!
+//! A begun level holds while its object closes; the driver's steering ends levels 1 and 2, nothing but
+//! standstill ends level 3 (readings c, d).
+
+use crate::clock::Ticks;
+use crate::evidence::{BrakePedal, Evidence};
+use crate::input::{EpbState, Inputs};
+use crate::limits::Config;
+use crate::threat::{Alert, Closing, Level, Threat};
+use crate::units::{DecelMs2Q11, Timer};
+use crate::word::retained;
+
+retained! {
+    /// The mitigation machine.
+    Mitigation {
+        /// Latch of level 1.
+        one: bool = false,
+        /// Latch of level 2.
+        two: bool = false,
+        /// Latch of level 3.
+        three: bool = false,
+        /// Nothing has been closing.
+        gone: Timer = Timer::STOPPED,
+        /// Continuous standstill.
+        standstill: Timer = Timer::STOPPED,
+        /// Speed unknown while a latch is set.
+        speedless: Timer = Timer::STOPPED,
+        /// A level ended for lack of speed: hold until the parking brake is applied or the driver brakes (MIT-7).
+        hold: bool = false,
+        /// Forward-collision warning.
+        forward: bool = false,
+        /// Pedestrian-collision warning.
+        pedestrian: bool = false,
+    }
+}
+
+/// Whether the driver's steering counts in this cycle (MIT-7).
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Steered {
+    /// Automatic steering turns the wheel.
+    pub automatic: bool,
+    /// The driver has taken over.
+    pub takeover: bool,
+}
+
+impl Mitigation {
+    /// Any latch set.
+    #[must_use]
+    pub const fn running(&self) -> bool {
+        self.one || self.two || self.three
+    }
+
+    /// The highest level set.
+    #[must_use]
+    pub const fn level(&self) -> Level {
+        match (self.three, self.two, self.one) {
+            (true, _, _) => Level::Three,
+            (false, true, _) => Level::Two,
+            (false, false, true) => Level::One,
+            (false, false, false) => Level::None,
+        }
+    }
+
+    /// MIT-4: the demand is the greatest of the set latches.
+    pub(crate) fn demand(&self, config: &Config) -> DecelMs2Q11 {
+        let [one, two, three] = config.level_decel.0;
+        match self.level() {
+            Level::Three => three,
+            Level::Two => two,
+            Level::One => one,
+            Level::None => DecelMs2Q11::ZERO,
+        }
+    }
+
+    pub(crate) fn advance(
+        self,
+        threat: &Threat,
+        steered: Steered,
+        evidence: &Evidence,
+        inputs: &Inputs,
+        ticks: Ticks,
+        config: &Config,
+    ) -> Self {
+        let angle = evidence.steering_angle.map(|angle| angle.raw().unsigned_abs());
+        let [enter_one, enter_two, enter_three] = config.level_angle.0.map(|limit| limit.raw().unsigned_abs());
+        let [exit_one, exit_two] = config.level_exit_angle.0.map(|limit| limit.raw().unsigned_abs());
+
+        // MIT-6: nothing new is obliged when slow, or while the bus already brakes enough. Both need evidence.
+        let slow = evidence.obliged_below(config.level_least_speed);
+        let braking = inputs.deceleration.known().is_some_and(|measured| measured >= threat.required);
+        let open = !slow && !braking;
+        // MIT-7: unknown angle, no new entry.
+        let enter = |level, limit| open && threat.level >= level && angle.is_some_and(|angle| angle < limit);
+
+        let gone = self.gone.run_while(threat.closing == Closing::No, ticks.permission);
+        let standstill = self.standstill.run_while(evidence.standstill, ticks.permission);
+        let speedless = self.speedless.run_while(self.running() && evidence.speed.is_none(), ticks.permission);
+        let over = standstill.reached(config.level_standstill) || speedless.reached(config.level_speedless);
+        // MIT-4: the driver's steering ends levels 1 and 2; in automatic steering only after a takeover.
+        let by_driver = !steered.automatic || steered.takeover;
+        let leaves =
+            |limit| over || gone.reached(config.level_gone) || (by_driver && angle.is_some_and(|angle| angle > limit));
+
+        let braked = matches!(evidence.brake_pedal, BrakePedal::Pressed(_)) || inputs.epb.is(EpbState::Applied);
+        Self {
+            one: enter(Level::One, enter_one) || (self.one && !leaves(exit_one)),
+            two: enter(Level::Two, enter_two) || (self.two && !leaves(exit_two)),
+            three: enter(Level::Three, enter_three) || (self.three && !over),
+            gone,
+            standstill,
+            speedless,
+            hold: (self.hold || speedless.reached(config.level_speedless)) && !braked,
+            forward: alert(self.forward, threat.forward),
+            pedestrian: alert(self.pedestrian, threat.pedestrian),
+        }
+    }
+}
+
+const fn alert(on: bool, says: Alert) -> bool {
+    match says {
+        Alert::On => true,
+        Alert::Off => false,
+        Alert::Keep => on,
+    }
+}

@@ -1,0 +1,161 @@
+//! May automatic steering act, and how far? (S4 6.3; STR-1, STR-2)
+//!
+//! The target moves from our last output by no more than the rate allows, towards the window that speed and the
+//! measured angle permit: on a fault it never jumps. Weight and overlay torque fade in and out.
+
+use crate::clock::Ticks;
+use crate::command::Outputs;
+use crate::drive::Mode;
+use crate::envelope::{Permission, SteeringBound, all};
+use crate::evidence::Evidence;
+use crate::input::{EpsState, Inputs};
+use crate::limits::Config;
+use crate::units::{AngleDeciDeg, Millis, Percent, PercentPerS, SpeedKmhQ8, Timer, TorqueNmQ10};
+use crate::verdict::Reason;
+use crate::word::retained;
+
+retained! {
+    /// The steering machine.
+    SteeringState {
+        /// Last output weight; above 0 automatic steering acts.
+        weight: Percent = Percent::ZERO,
+        /// Last output angle; the measured one while nothing acts.
+        angle: AngleDeciDeg = AngleDeciDeg::ZERO,
+        /// Last output overlay torque.
+        overlay: TorqueNmQ10 = TorqueNmQ10::ZERO,
+        /// The driver's torque is beyond the takeover torque.
+        takeover: Timer = Timer::STOPPED,
+        /// Taken over: automatic steering must be asked for anew.
+        barred: bool = false,
+    }
+}
+
+/// The row of the speed tables: up to 10, 20, 30, 40, 60, 80 km/h, and above.
+fn row(speed: SpeedKmhQ8) -> usize {
+    match speed.raw() {
+        0..=2560 => 0,
+        2561..=5120 => 1,
+        5121..=7680 => 2,
+        7681..=10240 => 3,
+        10241..=15360 => 4,
+        15361..=20480 => 5,
+        20481.. => 6,
+    }
+}
+
+fn share(per_second: PercentPerS, elapsed: Millis) -> u8 {
+    let share = u32::from(per_second.raw()).saturating_mul(elapsed.raw()).div_ceil(1000);
+    u8::try_from(share).unwrap_or(u8::MAX)
+}
+
+impl SteeringState {
+    /// Automatic steering acts on the wheel.
+    pub(crate) fn acts(&self) -> bool {
+        self.weight > Percent::ZERO
+    }
+
+    /// STR-2: the driver has taken over.
+    pub(crate) const fn taken_over(&self, config: &Config) -> bool {
+        self.takeover.reached(config.takeover_time)
+    }
+
+    pub(crate) fn advance(self, evidence: &Evidence, inputs: &Inputs, ticks: Ticks, config: &Config) -> Self {
+        let limit = config.takeover_torque.raw().unsigned_abs();
+        let strong = inputs.driver_torque.known().is_some_and(|torque| torque.raw().unsigned_abs() > limit);
+        let takeover = self.takeover.run_while(strong, ticks.safety);
+        let angle = if self.acts() { self.angle } else { evidence.steering_angle.unwrap_or(self.angle) };
+        let barred = self.barred || takeover.reached(config.takeover_time);
+        Self { takeover, angle, barred, ..self }
+    }
+
+    /// After vetting. `asked` says whether a usable command asked for automatic steering.
+    pub(crate) fn record(self, outputs: &Outputs, asked: bool) -> Self {
+        Self {
+            weight: outputs.steering.weight,
+            angle: outputs.steering.angle,
+            overlay: outputs.steering.overlay,
+            barred: self.barred && asked,
+            ..self
+        }
+    }
+
+    fn permission(
+        &self,
+        mode: Mode,
+        safe_state: bool,
+        evidence: &Evidence,
+        inputs: &Inputs,
+        config: &Config,
+    ) -> Permission {
+        let in_range = evidence.speed.is_some_and(|speed| {
+            speed.low >= config.steering_speed_least && speed.high <= config.steering_speed_greatest
+        });
+        let granted = self.acts() || mode != Mode::Manual;
+        all(&[
+            (!safe_state, Reason::SafeState),
+            (!self.barred, Reason::Takeover),
+            (matches!(inputs.eps.known(), Some(EpsState::Ready | EpsState::Active)), Reason::PowerSteering),
+            (evidence.steering_angle.is_some() && inputs.driver_torque.known().is_some(), Reason::SteeringRefused),
+            (in_range, Reason::SteeringSpeed),
+            (granted && !inputs.cruise_switch.is(false), Reason::SteeringRefused),
+        ])
+    }
+
+    pub(crate) fn bound(
+        &self,
+        mode: Mode,
+        safe_state: bool,
+        evidence: &Evidence,
+        inputs: &Inputs,
+        ticks: Ticks,
+        config: &Config,
+    ) -> SteeringBound {
+        let enable = self.permission(mode, safe_state, evidence, inputs, config);
+        // Unknown speed: the bounds of the highest speed.
+        let row = evidence.speed.map_or(6, |speed| row(speed.high));
+        let limit = config.steering_angle.0.get(row).map_or(0, |angle| angle.raw());
+        let rate = config.steering_rate.0.get(row).copied().unwrap_or_default();
+
+        // STR-1: the window of speed and measured angle, then what the rate can reach of it: no jump, ever.
+        let measured = evidence.steering_angle.unwrap_or(self.angle).raw();
+        let deviation = config.steering_deviation.raw();
+        let window = |edge: i16| edge.clamp(limit.saturating_neg().min(limit), limit.max(limit.saturating_neg()));
+        let reach = u32::from(rate.raw()).saturating_mul(ticks.permission.raw()) / 1000;
+        let reach = i16::try_from(reach).unwrap_or(i16::MAX);
+        let (from, to) = (self.angle.raw().saturating_sub(reach), self.angle.raw().saturating_add(reach));
+        let least = window(measured.saturating_sub(deviation)).clamp(from, to);
+        let most = window(measured.saturating_add(deviation)).clamp(from, to);
+
+        let fade_out = share(config.steering_fade, ticks.safety);
+        let fade_in = share(config.steering_fade, ticks.permission);
+        let weight = self.weight.raw().min(100);
+        let (overlay, neutral) = self.overlay(fade_in, fade_out, config);
+        SteeringBound {
+            enable,
+            angle_least: AngleDeciDeg::new(least),
+            angle_most: AngleDeciDeg::new(most),
+            angle_neutral: self.angle,
+            rate,
+            overlay,
+            overlay_neutral: neutral,
+            weight_least: Percent::new(weight.saturating_sub(fade_out)),
+            weight_most: Percent::new(weight.saturating_add(fade_in).min(100)),
+            bar: config.steering_bar,
+        }
+    }
+
+    /// STR-2: the greatest overlay torque (fading in), and the last one faded out.
+    fn overlay(&self, fade_in: u8, fade_out: u8, config: &Config) -> (TorqueNmQ10, TorqueNmQ10) {
+        let full = u32::from(config.steering_overlay.raw().unsigned_abs());
+        let step = |share: u8| {
+            let step = full.saturating_mul(u32::from(share)) / 100;
+            i16::try_from(step).unwrap_or(i16::MAX)
+        };
+        let last = self.overlay.raw();
+        let most = i16::try_from(last.unsigned_abs()).unwrap_or(i16::MAX).saturating_add(step(fade_in));
+        let fade = step(fade_out);
+        let faded = if last > 0 { last.saturating_sub(fade).max(0) } else { last.saturating_add(fade).min(0) };
+        let bound = most.min(config.steering_overlay.raw().max(0));
+        (TorqueNmQ10::new(bound), TorqueNmQ10::new(faded.clamp(bound.saturating_neg(), bound)))
+    }
+}

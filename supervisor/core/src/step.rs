@@ -1,0 +1,141 @@
+//! Step: the only way in.
+
+use crate::command::{Commands, Outputs};
+use crate::decide::{Decided, decide};
+use crate::drive::Mode;
+use crate::envelope::Envelope;
+use crate::high_voltage::Stage;
+use crate::input::Inputs;
+use crate::limits::Config;
+use crate::sealed::Sealed;
+use crate::state::{State, StateImage};
+use crate::threat::{Level, Threat};
+use crate::units::Millis;
+use crate::verdict::{ExitReason, Faults, Verdicts};
+use crate::vet::vet;
+use crate::word::codes;
+
+codes! {
+    /// What the supervisor says of the seat.
+    Occupancy {
+        /// Confirmed occupied.
+        Confirmed = 0,
+        /// Not confirmed; no leave runs.
+        NotConfirmed = 1,
+        /// Leave runs.
+        Leave = 2,
+    }
+}
+
+/// The state after the cycle, for people and records. Nothing in it can be written back.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Status {
+    /// The seat.
+    pub occupancy: Occupancy,
+    /// Parked by leave.
+    pub parked_by_leave: bool,
+    /// Time parked by leave towards the shutdown of high voltage.
+    pub parked_for: Millis,
+    /// Stage of that shutdown.
+    pub stage: Stage,
+    /// Highest mitigation level set.
+    pub level: Level,
+    /// The longitudinal mode.
+    pub mode: Mode,
+    /// Why the automated mode last ended.
+    pub exit: ExitReason,
+    /// Safe state.
+    pub safe_state: bool,
+    /// Faults and hints of this cycle.
+    pub faults: Faults,
+    /// What to persist now (SELF-9).
+    pub record: crate::boot::Record,
+}
+
+/// Everything that one cycle decides.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Decision {
+    /// What goes to the actuators, on every channel.
+    pub outputs: Outputs,
+    /// Why.
+    pub verdicts: Verdicts,
+    /// What had to and could happen.
+    pub envelope: Envelope,
+    /// Where the supervisor stands.
+    pub status: Status,
+}
+
+/// One cycle: decode the state, decide, vet, put the state to rest.
+///
+/// Total: any image, time, inputs, threat and commands give a decision (SELF-1). State that does not decode, or a
+/// configuration that has changed, is the safe state, latched (SELF-4, SELF-5).
+#[must_use]
+pub fn step(
+    image: &mut StateImage,
+    sealed: &Sealed,
+    now: Millis,
+    inputs: &Inputs,
+    threat: &Threat,
+    commands: &Commands,
+) -> Decision {
+    let decoded = image.decode().unwrap_or_else(State::corrupted);
+    let (state, config) = match sealed.intact() {
+        Some(config) => (decoded, config),
+        None => (State { latched: decoded.latched.with(Faults::CONFIGURATION), ..decoded }, &Config::DEFAULT),
+    };
+    let decided = decide(&state, now, inputs, threat, config);
+    let (outputs, verdicts) = vet(&decided.envelope, commands);
+    let next = record(&decided, &outputs, commands, config);
+    *image = StateImage::encode(&next);
+    let lost = |reason: bool, fault| if reason { fault } else { Faults::NONE };
+    let timeouts = decided.envelope.timeouts;
+    let faults = decided
+        .faults
+        .with(lost(commands.drive.usable(timeouts.ms50).is_err(), Faults::DRIVE_COMMAND_LOST))
+        .with(lost(commands.brake.usable(timeouts.ms50).is_err(), Faults::BRAKE_COMMAND_LOST))
+        .with(lost(
+            commands.steering.usable(timeouts.ms50).is_err() && decided.state.steering.acts(),
+            Faults::STEERING_COMMAND_LOST,
+        ));
+    let status = status(&next, faults, config);
+    Decision { outputs, verdicts, envelope: decided.envelope, status }
+}
+
+/// What went out becomes part of the state: rates, ramps and latches count from it.
+#[must_use]
+pub fn record(decided: &Decided, outputs: &Outputs, commands: &Commands, config: &Config) -> State {
+    let timeouts = decided.envelope.timeouts;
+    let usable = [commands.brake.usable(timeouts.ms50).is_ok(), commands.retarder.usable(timeouts.ms100).is_ok()];
+    let asked = commands.steering.usable(timeouts.ms50).is_ok_and(|steering| steering.enable);
+    let state = decided.state;
+    State {
+        parking: state.parking.record(outputs),
+        drive: state.drive.record(outputs, decided.ticks),
+        brake: state.brake.record(outputs, &decided.envelope.brake, usable, decided.ticks, config),
+        steering: state.steering.record(outputs, asked),
+        body: outputs.body,
+        ..state
+    }
+}
+
+fn status(state: &State, faults: Faults, config: &Config) -> Status {
+    let occupancy = if state.seat.leave {
+        Occupancy::Leave
+    } else if state.seat.confirmed(config) {
+        Occupancy::Confirmed
+    } else {
+        Occupancy::NotConfirmed
+    };
+    Status {
+        occupancy,
+        parked_by_leave: state.parking.by_leave,
+        parked_for: state.high_voltage.parked.elapsed(),
+        stage: state.high_voltage.stage,
+        level: state.mitigation.level(),
+        mode: state.drive.mode,
+        exit: state.drive.exit,
+        safe_state: state.is_safe_state(),
+        faults,
+        record: state.record(),
+    }
+}

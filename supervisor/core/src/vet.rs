@@ -1,0 +1,400 @@
+//! Vet: one command against the envelope. Pure; the same functions for `step` and for a gateway.
+//!
+//! Channels are vetted in a fixed order, because some are coupled: gear, service brake, retarder, torque, then
+//! the rest. Each takes the outputs given so far. Whatever comes in, what goes out is inside the envelope
+//! (SELF-2): sound, transparent, idempotent.
+
+use crate::command::{
+    Auxiliaries, Body, BrakeMode, Command, Commands, ContactorRequest, Contactors, DriveTorque, DrivingMode,
+    EpbRequest, GearRequest, Origin, Outputs, ParkingBrake, Priority, Retarder, ServiceBrake, Steering, Warnings,
+};
+use crate::envelope::{Bound, ContactorBound, Envelope, Permission};
+use crate::input::{EpbMode, Gear};
+use crate::units::{AngleDeciDeg, DecelMs2Q11, Percent, SpeedKmhQ8, TorqueNmQ10};
+use crate::verdict::{Kind, Reason, Verdict, Verdicts};
+
+/// Vets every channel of one cycle.
+#[must_use]
+pub fn vet(envelope: &Envelope, commands: &Commands) -> (Outputs, Verdicts) {
+    let mut out = Outputs::NEUTRAL;
+    let gear;
+    (out.gear, gear) = vet_gear(envelope, commands.gear);
+    let brake;
+    (out.brake, brake) = vet_brake(envelope, commands.brake);
+    let retarder;
+    (out.retarder, retarder) = vet_retarder(envelope, &out, commands.retarder);
+    let drive;
+    (out.drive, drive) = vet_drive(envelope, &out, commands.drive);
+    let target_speed;
+    (out.target_speed, target_speed) = vet_target_speed(envelope, commands.target_speed);
+    let epb;
+    (out.epb, epb) = vet_epb(envelope, commands.epb);
+    let steering;
+    (out.steering, steering) = vet_steering(envelope, commands.steering);
+    let contactors;
+    (out.contactors, contactors) = vet_contactors(envelope, &out, commands.contactors);
+    let auxiliaries;
+    (out.auxiliaries, auxiliaries) = vet_auxiliaries(envelope, commands.auxiliaries);
+    let warnings;
+    (out.warnings, warnings) = vet_warnings(envelope, commands.warnings);
+    let body;
+    (out.body, body) = vet_body(envelope, &out, commands.body);
+    let mode;
+    (out.mode, mode) = vet_mode(envelope, commands.mode);
+    let list =
+        [drive, target_speed, brake, retarder, gear, epb, steering, contactors, auxiliaries, warnings, body, mode];
+    (out, Verdicts::new(list))
+}
+
+/// Splits a command into its value, or the neutral or fallback value with the reason why.
+fn value_or<T: Copy>(usable: Result<T, Reason>, fallback: T) -> T {
+    usable.unwrap_or(fallback)
+}
+
+/// The verdict of a channel: `Pass` exactly when a usable command goes out unchanged.
+fn judge<T: PartialEq>(
+    usable: Result<T, Reason>,
+    out: &T,
+    neutral: &T,
+    pass: Verdict,
+    cause: Option<Verdict>,
+) -> Verdict {
+    let lost = |reason| Verdict::fact(if out == neutral { Kind::Block } else { Kind::Substitute }, reason, 0, 0);
+    match usable {
+        Ok(value) if value == *out => pass,
+        Ok(_) => cause.unwrap_or(Verdict::fact(Kind::Limit, Reason::FieldRange, 0, 0)),
+        // What is obliged explains more than that the command is missing.
+        Err(reason) => cause.unwrap_or_else(|| lost(reason)),
+    }
+}
+
+/// GEAR-1, SEAT-6.
+#[must_use]
+pub fn vet_gear(envelope: &Envelope, command: Command<GearRequest>) -> (GearRequest, Verdict) {
+    let bound = &envelope.gear;
+    let usable = command.usable(envelope.timeouts.ms100);
+    let wanted = value_or(usable, GearRequest::Hold);
+    let permission: Permission = match wanted {
+        GearRequest::Hold => Ok(()),
+        GearRequest::Drive => bound.drive,
+        GearRequest::Reverse => bound.reverse,
+        GearRequest::Neutral => bound.to_neutral,
+        GearRequest::Park => bound.park,
+    };
+    let (out, cause) = match permission {
+        _ if bound.neutral => {
+            let cause =
+                Verdict::fact(Kind::Substitute, Reason::NeutralObliged, wanted.code(), GearRequest::Neutral.code());
+            (GearRequest::Neutral, Some(cause))
+        }
+        Ok(()) => (wanted, None),
+        Err(reason) => {
+            (GearRequest::Hold, Some(Verdict::fact(Kind::Block, reason, wanted.code(), GearRequest::Hold.code())))
+        }
+    };
+    (out, judge(usable, &out, &GearRequest::Hold, Verdict::PASS, cause))
+}
+
+/// SEAT-3, MIT, PHB-1, TRQ-3, VLC-2: the total, then the split, then mode and priority.
+#[must_use]
+pub fn vet_brake(envelope: &Envelope, command: Command<ServiceBrake>) -> (ServiceBrake, Verdict) {
+    let bound = &envelope.brake;
+    let usable = command.usable(envelope.timeouts.ms50);
+    let fallback = ServiceBrake {
+        total: bound.fallback,
+        mode: if bound.fallback > DecelMs2Q11::ZERO { BrakeMode::Maximum } else { BrakeMode::Off },
+        priority: Priority::Medium,
+        ..ServiceBrake::NEUTRAL
+    };
+    let wanted = value_or(usable, fallback);
+    let mut out = wanted;
+    let mut cause = None;
+    // An obligation carries its own mode and priority: the driver's demand is the floor.
+    let obliged = bound.floor.most > DecelMs2Q11::ZERO;
+    if obliged && (out.mode != BrakeMode::Maximum || out.priority != Priority::Highest) {
+        cause = Some(Verdict::fact(Kind::Substitute, Reason::BrakeMode, out.mode.code(), BrakeMode::Maximum.code()));
+        (out.mode, out.priority) = (BrakeMode::Maximum, Priority::Highest);
+    }
+    out.electric = wanted.electric.min(bound.electric);
+    if out.electric < wanted.electric {
+        cause = Some(Verdict::above(Kind::Limit, Reason::ElectricLimit, wanted.electric.wide(), bound.electric.wide()));
+    }
+    if wanted.total > bound.cap.most {
+        out.total = bound.cap.most;
+        cause = Some(Verdict::above(Kind::Limit, bound.cap.reason, wanted.total.wide(), bound.cap.most.wide()));
+    }
+    if wanted.total < bound.floor.most {
+        out.total = bound.floor.most;
+        cause =
+            Some(Verdict::below(Kind::Substitute, bound.floor.reason, wanted.total.wide(), bound.floor.most.wide()));
+    }
+    if out.electric > out.total {
+        cause = cause.or(Some(Verdict::above(Kind::Limit, Reason::FieldRange, out.electric.wide(), out.total.wide())));
+        out.electric = out.total;
+    }
+    let pass = Verdict::above(Kind::Pass, Reason::Within, wanted.total.wide(), bound.cap.most.wide());
+    (out, judge(usable, &out, &ServiceBrake::NEUTRAL, pass, cause))
+}
+
+/// RET-1, PHB-1: what the cap leaves beside the service brake.
+#[must_use]
+pub fn vet_retarder(envelope: &Envelope, given: &Outputs, command: Command<Retarder>) -> (Retarder, Verdict) {
+    let bound = &envelope.brake;
+    let usable = command.usable(envelope.timeouts.ms100);
+    let fallback = Retarder {
+        torque: bound.retarder_fallback,
+        mode: crate::command::RetarderMode::Torque,
+        priority: Priority::Low,
+    };
+    let wanted = value_or(usable, if bound.retarder_fallback > Percent::ZERO { fallback } else { Retarder::NEUTRAL });
+    let room = u32::from(bound.cap.most.raw().saturating_sub(given.brake.total.raw()));
+    let share = room.saturating_mul(100).checked_div(u32::from(bound.retarder_decel.raw())).unwrap_or(100).min(100);
+    let mut most = bound.retarder;
+    most.lower(Percent::new(u8::try_from(share).unwrap_or(100)), bound.cap.reason);
+    let (torque, pass, cause) = limited(wanted.torque, most);
+    let out = Retarder { torque, ..wanted };
+    (out, judge(usable, &out, &Retarder::NEUTRAL, pass, cause))
+}
+
+fn limited(wanted: Percent, bound: Bound<Percent>) -> (Percent, Verdict, Option<Verdict>) {
+    let pass = Verdict::above(Kind::Pass, Reason::Within, wanted.wide(), bound.most.wide());
+    let cause =
+        (wanted > bound.most).then(|| Verdict::above(Kind::Limit, bound.reason, wanted.wide(), bound.most.wide()));
+    (wanted.min(bound.most), pass, cause)
+}
+
+/// TRQ-1 to TRQ-6.
+#[must_use]
+pub fn vet_drive(envelope: &Envelope, given: &Outputs, command: Command<DriveTorque>) -> (DriveTorque, Verdict) {
+    let bound = &envelope.torque;
+    let usable = command.usable(envelope.timeouts.ms50);
+    let wanted = value_or(usable, DriveTorque::NEUTRAL);
+    let by_driver = wanted.origin == Origin::Driver;
+    let mut most = if by_driver { bound.driver } else { bound.automated };
+    most.lower_if(!by_driver && !wanted.active, Percent::ZERO, Reason::NotActive);
+    most.lower_if(wanted.origin == Origin::Epbi && wanted.torque < bound.idle, Percent::ZERO, Reason::IdleTorque);
+    // TRQ-6: not against the brake, and not while the gear changes.
+    let braking = envelope.brake.total(given) > DecelMs2Q11::ZERO;
+    most.lower_if(braking && !(bound.hill_hold && by_driver), Percent::ZERO, Reason::BrakeDemand);
+    let steady = match given.gear {
+        GearRequest::Hold => true,
+        GearRequest::Drive => envelope.gear.confirmed == Some(Gear::Drive),
+        GearRequest::Reverse => envelope.gear.confirmed == Some(Gear::Reverse),
+        GearRequest::Neutral | GearRequest::Park => false,
+    };
+    most.lower_if(!steady, Percent::ZERO, Reason::GearDirection);
+
+    let (torque, pass, cause) = limited(wanted.torque, most);
+    // A sender that may not have torque does not keep its active flag either.
+    let refused = !by_driver && torque == Percent::ZERO;
+    let out = if refused { DriveTorque::NEUTRAL } else { DriveTorque { torque, ..wanted } };
+    let blocked = refused.then(|| Verdict::above(Kind::Block, most.reason, wanted.torque.wide(), most.most.wide()));
+    (out, judge(usable, &out, &DriveTorque::NEUTRAL, pass, blocked.filter(|_| usable.is_ok()).or(cause)))
+}
+
+/// SPD-1.
+#[must_use]
+pub fn vet_target_speed(envelope: &Envelope, command: Command<SpeedKmhQ8>) -> (SpeedKmhQ8, Verdict) {
+    let bound = envelope.target_speed;
+    let usable = command.usable(envelope.timeouts.ms50);
+    let wanted = value_or(usable, SpeedKmhQ8::ZERO);
+    let out = wanted.min(bound.most);
+    let pass = Verdict::above(Kind::Pass, Reason::Within, wanted.wide(), bound.most.wide());
+    let cause = (wanted > out).then(|| Verdict::above(Kind::Limit, bound.reason, wanted.wide(), bound.most.wide()));
+    (out, judge(usable, &out, &SpeedKmhQ8::ZERO, pass, cause))
+}
+
+/// SEAT-4, SEAT-5, EPB-1: a refused release becomes *none*.
+#[must_use]
+pub fn vet_epb(envelope: &Envelope, command: Command<ParkingBrake>) -> (ParkingBrake, Verdict) {
+    let bound = &envelope.epb;
+    let usable = command.usable(envelope.timeouts.ms200);
+    let wanted = value_or(usable, ParkingBrake::NEUTRAL);
+    let code = wanted.request.code();
+    let refuse = |permission: Permission| match permission {
+        Ok(()) => (wanted, None),
+        Err(reason) => {
+            let none = ParkingBrake { request: EpbRequest::None, ..wanted };
+            (none, Some(Verdict::fact(Kind::Block, reason, code, EpbRequest::None.code())))
+        }
+    };
+    let (out, cause) = match (bound.obliged, wanted.request) {
+        (Some(reason), _) => {
+            let apply = ParkingBrake { request: EpbRequest::Apply, mode: EpbMode::Automatic };
+            (apply, Some(Verdict::fact(Kind::Substitute, reason, code, EpbRequest::Apply.code())))
+        }
+        (None, EpbRequest::None) => (wanted, None),
+        (None, EpbRequest::Apply) => refuse(bound.apply),
+        (None, EpbRequest::Release) => refuse(bound.release),
+    };
+    (out, judge(usable, &out, &ParkingBrake::NEUTRAL, Verdict::PASS, cause))
+}
+
+/// STR-1, STR-2.
+#[must_use]
+pub fn vet_steering(envelope: &Envelope, command: Command<Steering>) -> (Steering, Verdict) {
+    let bound = &envelope.steering;
+    let usable = command.usable(envelope.timeouts.ms50);
+    let wanted = value_or(usable, Steering::NEUTRAL);
+    // Not permitted, not asked for, or lost: fade out from where it is.
+    let refusal = match (bound.enable, wanted.enable) {
+        (Err(reason), _) => Some(reason),
+        (Ok(()), false) => Some(Reason::SteeringWeight),
+        (Ok(()), true) => None,
+    };
+    if let Some(reason) = refusal {
+        let out = Steering {
+            enable: bound.weight_least > Percent::ZERO,
+            angle: bound.angle_neutral,
+            rate: crate::units::RateDeciDegS::ZERO,
+            overlay: bound.overlay_neutral,
+            weight: bound.weight_least,
+            bar_limit: bound.bar,
+        };
+        let idle = !out.enable && out.overlay == TorqueNmQ10::ZERO;
+        // Nothing acts and nothing is asked for: the command's idle fields are of no effect and pass.
+        if idle && !wanted.enable && wanted.weight == Percent::ZERO && wanted.overlay == TorqueNmQ10::ZERO {
+            return (wanted, judge(usable, &wanted, &Steering::NEUTRAL, Verdict::PASS, None));
+        }
+        let out = if idle { Steering { angle: out.angle, ..Steering::NEUTRAL } } else { out };
+        let kind = if idle { Kind::Block } else { Kind::Substitute };
+        let cause = Verdict::fact(kind, reason, u8::from(wanted.enable), u8::from(out.enable));
+        return (
+            out,
+            judge(usable, &out, &Steering::NEUTRAL, Verdict::PASS, Some(cause).filter(|_| usable.is_ok() || !idle)),
+        );
+    }
+    let limit = bound.overlay.raw();
+    let out = Steering {
+        enable: true,
+        angle: wanted.angle.clamp_between(bound.angle_least, bound.angle_most),
+        rate: wanted.rate.min(bound.rate),
+        overlay: TorqueNmQ10::new(wanted.overlay.raw().max(limit.saturating_neg()).min(limit)),
+        weight: wanted.weight.max(bound.weight_least).min(bound.weight_most),
+        bar_limit: wanted.bar_limit.min(bound.bar),
+    };
+    let angle_limit = if wanted.angle < bound.angle_least { bound.angle_least } else { bound.angle_most };
+    let checks = [
+        (out.angle != wanted.angle, Reason::SteeringAngle, wanted.angle.wide(), angle_limit.wide()),
+        (out.rate != wanted.rate, Reason::SteeringRate, wanted.rate.wide(), bound.rate.wide()),
+        (out.overlay != wanted.overlay, Reason::SteeringOverlay, wanted.overlay.wide(), out.overlay.wide()),
+        (out.weight != wanted.weight, Reason::SteeringWeight, wanted.weight.wide(), out.weight.wide()),
+        (out.bar_limit != wanted.bar_limit, Reason::BarTorque, wanted.bar_limit.wide(), bound.bar.wide()),
+    ];
+    let cause = checks.into_iter().find(|(differs, ..)| *differs).map(|(_, reason, value, limit)| Verdict {
+        kind: Kind::Limit,
+        reason,
+        value,
+        limit,
+        margin: value.abs_diff(limit).cast_signed().saturating_neg(),
+    });
+    let pass = Verdict::above(Kind::Pass, Reason::Within, wanted.angle.wide(), bound.angle_most.wide());
+    (out, judge(usable, &out, &Steering::NEUTRAL, pass, cause))
+}
+
+/// SEAT-7, SEAT-8, HV-1: each contactor against its bound; K4 opens only with our own drive torque at 0.
+#[must_use]
+pub fn vet_contactors(envelope: &Envelope, given: &Outputs, command: Command<Contactors>) -> (Contactors, Verdict) {
+    let usable = command.usable(envelope.timeouts.ms100);
+    let wanted = value_or(usable, Contactors::NEUTRAL);
+    let mut k4 = envelope.k4;
+    if given.drive.torque > Percent::ZERO {
+        k4.obliged = false;
+        k4.open = k4.open.and(Err(Reason::LoadsNotStopped));
+    }
+    let (k4_out, k4_cause) = contactor(&k4, wanted.k4);
+    let (k1_out, k1_cause) = contactor(&envelope.k1, wanted.k1);
+    let out = Contactors { k4: k4_out, k1: k1_out };
+    (out, judge(usable, &out, &Contactors::NEUTRAL, Verdict::PASS, k4_cause.or(k1_cause)))
+}
+
+fn contactor(bound: &ContactorBound, wanted: ContactorRequest) -> (ContactorRequest, Option<Verdict>) {
+    let code = wanted.code();
+    let permission = match wanted {
+        _ if bound.obliged && wanted != ContactorRequest::Open => {
+            let cause = Verdict::fact(Kind::Substitute, Reason::Shutdown, code, ContactorRequest::Open.code());
+            return (ContactorRequest::Open, Some(cause));
+        }
+        ContactorRequest::Hold => Ok(()),
+        ContactorRequest::Open => bound.open,
+        ContactorRequest::Close => bound.close,
+    };
+    match permission {
+        Ok(()) => (wanted, None),
+        Err(reason) => {
+            (ContactorRequest::Hold, Some(Verdict::fact(Kind::Block, reason, code, ContactorRequest::Hold.code())))
+        }
+    }
+}
+
+/// AUX-1: not switched off while rolling.
+#[must_use]
+pub fn vet_auxiliaries(envelope: &Envelope, command: Command<Auxiliaries>) -> (Auxiliaries, Verdict) {
+    let usable = command.usable(envelope.timeouts.ms200);
+    let wanted = value_or(usable, Auxiliaries::NEUTRAL);
+    let (out, cause) = match envelope.auxiliaries_off {
+        Ok(()) => (wanted, None),
+        Err(reason) => (Auxiliaries::NEUTRAL, Some(Verdict::fact(Kind::Limit, reason, 0, 1))),
+    };
+    let cause = cause.filter(|_| out != wanted);
+    (out, judge(usable, &out, &Auxiliaries::NEUTRAL, Verdict::PASS, cause))
+}
+
+/// FCW-1, PCW-1, SEAT-1: on is the safe direction.
+#[must_use]
+pub fn vet_warnings(envelope: &Envelope, command: Command<Warnings>) -> (Warnings, Verdict) {
+    let bound = envelope.warnings;
+    let usable = command.usable(envelope.timeouts.ms200);
+    let wanted = value_or(usable, Warnings::NEUTRAL);
+    let out = Warnings {
+        forward_collision: wanted.forward_collision || bound.forward_collision,
+        pedestrian: wanted.pedestrian || bound.pedestrian,
+        seat_leave: wanted.seat_leave || bound.seat_leave,
+        hazard_flashers: wanted.hazard_flashers || bound.hazard_flashers,
+        fault_lamp: wanted.fault_lamp || bound.fault_lamp,
+        notice_lamp: wanted.notice_lamp || bound.notice_lamp,
+        ..wanted
+    };
+    let cause = (out != wanted).then(|| Verdict::fact(Kind::Substitute, Reason::WarningObliged, 0, 1));
+    (out, judge(usable, &out, &Warnings::NEUTRAL, Verdict::PASS, cause))
+}
+
+/// BODY-1.
+#[must_use]
+pub fn vet_body(envelope: &Envelope, given: &Outputs, command: Command<Body>) -> (Body, Verdict) {
+    let usable = command.usable(envelope.timeouts.ms200);
+    // A lost command keeps what it was (E2E-2), but for the horn.
+    let wanted = value_or(usable, Body { horn: false, brake_lamps: false, ..envelope.body_fallback });
+    let mut out = wanted;
+    let mut cause = None;
+    if envelope.warnings.hazard_flashers {
+        (out.indicator_left, out.indicator_right) = (false, false);
+        cause = (out != wanted).then(|| Verdict::fact(Kind::Limit, Reason::HazardFlashers, 1, 0));
+    }
+    if envelope.lamps_delayed || envelope.brake.lamps_due(given, envelope.lamp_decel) {
+        cause = if out.brake_lamps { cause } else { Some(Verdict::fact(Kind::Substitute, Reason::BrakeLamps, 0, 1)) };
+        out.brake_lamps = true;
+    }
+    (out, judge(usable, &out, &Body::NEUTRAL, Verdict::PASS, cause))
+}
+
+/// MODE-1.
+#[must_use]
+pub fn vet_mode(envelope: &Envelope, command: Command<DrivingMode>) -> (DrivingMode, Verdict) {
+    let usable = command.usable(envelope.timeouts.ms200);
+    let wanted = value_or(usable, DrivingMode::Manual);
+    let (out, cause) = match (wanted, envelope.automated) {
+        (DrivingMode::Automated, Err(reason)) => {
+            (DrivingMode::Manual, Some(Verdict::fact(Kind::Block, reason, wanted.code(), DrivingMode::Manual.code())))
+        }
+        (DrivingMode::Automated | DrivingMode::Manual, _) => (wanted, None),
+    };
+    (out, judge(usable, &out, &DrivingMode::Manual, Verdict::PASS, cause))
+}
+
+impl AngleDeciDeg {
+    /// Between `least` and `most`; `most` if they are crossed.
+    fn clamp_between(self, least: Self, most: Self) -> Self {
+        self.max(least).min(most)
+    }
+}

@@ -1,0 +1,179 @@
+//! One object: time to collision, second opinion, and what it may oblige or permit.
+
+use supervisor_core::{ClosingCmS, Config, DecelMs2Q11, DistanceCm, Level, Millis, Object, OffsetCm};
+
+use crate::scene::{CameraObject, Class, RadarObject};
+
+/// What one object, or several merged, may oblige and permit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(kani, derive(kani::Arbitrary))]
+pub struct Assessment {
+    /// Level obliged by a valid obstacle.
+    pub level: Level,
+    /// A valid obstacle is closing.
+    pub closing: bool,
+    /// Deceleration a valid obstacle requires.
+    pub required: DecelMs2Q11,
+    /// Mitigation of any level may be asked for.
+    pub mitigable: bool,
+    /// The full cap may be used.
+    pub emergency: bool,
+    /// The forward-collision warning begins.
+    pub forward_begins: bool,
+    /// The forward-collision warning may not end yet.
+    pub forward_holds: bool,
+    /// The pedestrian warning begins.
+    pub pedestrian_begins: bool,
+    /// The pedestrian warning may not end yet.
+    pub pedestrian_holds: bool,
+    /// Time to collision and second opinion disagree.
+    pub disagreement: bool,
+    /// The deciding object.
+    pub object: Option<Object>,
+}
+
+impl Assessment {
+    /// No object.
+    pub const NOTHING: Self = Self {
+        level: Level::None,
+        closing: false,
+        required: DecelMs2Q11::ZERO,
+        mitigable: false,
+        emergency: false,
+        forward_begins: false,
+        forward_holds: false,
+        pedestrian_begins: false,
+        pedestrian_holds: false,
+        disagreement: false,
+        object: None,
+    };
+}
+
+/// TTC-1: T = distance / closing speed, compared with `limit` by cross-multiplication.
+///
+/// Both sides fit 32 bits: 65 535 cm · 1000 and 32 767 cm/s · 65 535 ms, saturating beyond.
+fn sides(distance: DistanceCm, closing: ClosingCmS, limit: Millis) -> Option<(u32, u32)> {
+    let closing = u32::try_from(closing.raw()).ok().filter(|closing| *closing > 0)?;
+    Some((u32::from(distance.raw()).saturating_mul(1000), limit.raw().saturating_mul(closing)))
+}
+
+/// T < `limit`. Not closing: no TTC, never.
+#[must_use]
+pub fn reached(distance: DistanceCm, closing: ClosingCmS, limit: Millis) -> bool {
+    sides(distance, closing, limit).is_some_and(|(distance, limit)| distance < limit)
+}
+
+/// T ≤ `limit`. Not closing: no TTC, never.
+#[must_use]
+pub fn reached_or_equal(distance: DistanceCm, closing: ClosingCmS, limit: Millis) -> bool {
+    sides(distance, closing, limit).is_some_and(|(distance, limit)| distance <= limit)
+}
+
+/// MIT-1 to MIT-3: the level that the time to collision calls for; the equalities are reading b.
+fn level(distance: DistanceCm, closing: ClosingCmS, config: &Config) -> Level {
+    let [one, two, three] = config.level_ttc.0;
+    if reached_or_equal(distance, closing, three) {
+        Level::Three
+    } else if reached_or_equal(distance, closing, two) {
+        Level::Two
+    } else if reached(distance, closing, one) {
+        Level::One
+    } else {
+        Level::None
+    }
+}
+
+/// Deceleration that takes away the closing speed before the margin: v²/(2·(gap − margin)), rounded up.
+/// Saturates, also where the margin is used up; 0 when not closing (MIT-6, MIT-8).
+fn required(distance: DistanceCm, closing: ClosingCmS, config: &Config) -> DecelMs2Q11 {
+    let Ok(closing) = u32::try_from(closing.raw()) else { return DecelMs2Q11::ZERO };
+    let gap = distance.raw().saturating_sub(config.gap_margin.raw());
+    // v in cm/s, gap in cm: v²/(2·gap) cm/s² = v²·2048/(2·gap·100) in 1/2048 m/s² = v²·256/(25·gap).
+    let square = u64::from(closing).saturating_mul(u64::from(closing)).saturating_mul(256);
+    let divisor = u64::from(gap).saturating_mul(25);
+    match (closing, divisor) {
+        (0, _) => DecelMs2Q11::ZERO,
+        (_, 0) => DecelMs2Q11::new(u16::MAX),
+        (_, divisor) => DecelMs2Q11::new(u16::try_from(square.div_ceil(divisor)).unwrap_or(u16::MAX)),
+    }
+}
+
+fn within(offset: OffsetCm, half: OffsetCm) -> bool {
+    offset.raw().unsigned_abs() <= half.raw().unsigned_abs()
+}
+
+/// Strictly within: S1 says "less than 1.8 m", "less than 2 m".
+fn inside(offset: OffsetCm, half: OffsetCm) -> bool {
+    offset.raw().unsigned_abs() < half.raw().unsigned_abs()
+}
+
+/// What a single sensor's object may permit: (mitigation of any level, the full cap).
+fn permits(distance: DistanceCm, closing: ClosingCmS, required: DecelMs2Q11, config: &Config) -> (bool, bool) {
+    let severe = required >= config.severe_decel;
+    let mitigable = severe || reached_or_equal(distance, closing, config.mitigable_ttc);
+    (mitigable, severe || reached_or_equal(distance, closing, config.emergency_ttc))
+}
+
+/// Assesses a radar object.
+#[must_use]
+pub fn radar_object(object: &RadarObject, config: &Config) -> Assessment {
+    let RadarObject { distance, offset, closing, updates, class, .. } = *object;
+    let in_corridor = within(offset, config.corridor);
+    let certain = class != Class::Unmatched || updates >= config.consistent_updates;
+    let required = required(distance, closing, config);
+    let (mitigable, emergency) = permits(distance, closing, required, config);
+    let valid = in_corridor && certain;
+    let level = if valid { level(distance, closing, config) } else { Level::None };
+
+    // FCW-1, PCW-1: "distance" is the lateral offset (reading a); what is not a pedestrian is an object.
+    let pedestrian = certain && class == Class::Pedestrian && inside(offset, config.pedestrian_offset);
+    let forward = certain && class != Class::Pedestrian && inside(offset, config.forward_offset);
+    let [forward_on, forward_off] = config.forward_ttc.0;
+    let [pedestrian_on, pedestrian_off] = config.pedestrian_ttc.0;
+
+    // MIT-8: severe by one, nothing by the other.
+    let [mild, ..] = config.level_decel.0;
+    let disagreement = valid
+        && ((required >= config.severe_decel && level == Level::None) || (level == Level::Three && required < mild));
+    Assessment {
+        level,
+        closing: valid && closing > ClosingCmS::ZERO,
+        required: if valid { required } else { DecelMs2Q11::ZERO },
+        mitigable: in_corridor && mitigable,
+        emergency: in_corridor && emergency,
+        forward_begins: forward && reached(distance, closing, forward_on),
+        forward_holds: forward && reached_or_equal(distance, closing, forward_off),
+        pedestrian_begins: pedestrian && reached(distance, closing, pedestrian_on),
+        pedestrian_holds: pedestrian && reached_or_equal(distance, closing, pedestrian_off),
+        disagreement,
+        object: valid.then_some(Object { distance, offset, closing }),
+    }
+}
+
+/// Assesses a camera object: alone it obliges nothing, but it may permit (rule 1).
+#[must_use]
+pub fn camera_object(object: &CameraObject, config: &Config) -> Assessment {
+    let required = required(object.distance, object.closing, config);
+    let (mitigable, emergency) = permits(object.distance, object.closing, required, config);
+    Assessment { mitigable, emergency, ..Assessment::NOTHING }
+}
+
+/// Merges two assessments: everything that either says. Commutative but for the deciding object, associative.
+#[must_use]
+pub fn merge(first: Assessment, second: Assessment) -> Assessment {
+    let severity = |assessment: &Assessment| (assessment.object.is_some(), assessment.level, assessment.required);
+    let decides = if severity(&second) > severity(&first) { second.object } else { first.object };
+    Assessment {
+        level: first.level.max(second.level),
+        closing: first.closing || second.closing,
+        required: first.required.max(second.required),
+        mitigable: first.mitigable || second.mitigable,
+        emergency: first.emergency || second.emergency,
+        forward_begins: first.forward_begins || second.forward_begins,
+        forward_holds: first.forward_holds || second.forward_holds,
+        pedestrian_begins: first.pedestrian_begins || second.pedestrian_begins,
+        pedestrian_holds: first.pedestrian_holds || second.pedestrian_holds,
+        disagreement: first.disagreement || second.disagreement,
+        object: decides,
+    }
+}

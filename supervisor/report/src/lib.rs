@@ -1,0 +1,2 @@
+//! Diagnosis.
+#![no_std]

@@ -1,0 +1,2 @@
+//! Frames to inputs and commands.
+#![no_std]

@@ -1,0 +1,1 @@
+//! Closed-loop bus model and drives.
