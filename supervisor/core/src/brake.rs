@@ -117,8 +117,8 @@ impl Brake {
         BrakeBound {
             floor,
             cap: cap(situation, floor, evidence, config),
-            fallback: self.faded(self.total, self.lost, ticks, config),
-            retarder_fallback: if self.retarder_lost.reached(config.brake_hold) {
+            fallback: self.faded(ticks, config),
+            retarder_fallback: if self.retarder_lost.due(config.brake_hold, ticks.safety) {
                 Percent::ZERO
             } else {
                 self.retarder
@@ -152,12 +152,12 @@ impl Brake {
     }
 
     /// E2E-2: a lost request holds for a while, then falls to nothing.
-    fn faded(&self, last: DecelMs2Q11, lost: Timer, ticks: Ticks, config: &Config) -> DecelMs2Q11 {
-        if !lost.reached(config.brake_hold) {
-            return last;
+    fn faded(&self, ticks: Ticks, config: &Config) -> DecelMs2Q11 {
+        if !self.lost.due(config.brake_hold, ticks.safety) {
+            return self.total;
         }
         let step = u32::from(config.brake_ramp.raw()).saturating_mul(ticks.safety.raw()).div_ceil(1000);
-        DecelMs2Q11::new(last.raw().saturating_sub(u16::try_from(step).unwrap_or(u16::MAX)))
+        DecelMs2Q11::new(self.total.raw().saturating_sub(u16::try_from(step).unwrap_or(u16::MAX)))
     }
 }
 
@@ -194,7 +194,9 @@ fn cap(situation: &Situation, floor: Bound<DecelMs2Q11>, evidence: &Evidence, co
         BrakePedal::Released => {}
         BrakePedal::Pressed(travel) => {
             cap.lower_if(!mitigable, DecelMs2Q11::ZERO, Reason::BrakePedal);
-            cap.raise(pedal_decel(travel, config), Reason::BrakePedal);
+            // Pressed to an unknown depth: nothing bounds what the driver asks for.
+            let asked = travel.map_or(config.brake_cap, |travel| pedal_decel(travel, config));
+            cap.raise(asked, Reason::BrakePedal);
         }
         BrakePedal::Unknown => cap.lower_if(!mitigable, config.drag_decel, Reason::BrakePedal),
     }

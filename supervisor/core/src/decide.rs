@@ -3,7 +3,7 @@
 use crate::boot;
 use crate::brake::Situation;
 use crate::drive::{Drive, Mode, Obligations};
-use crate::envelope::{Envelope, Timeouts, WarningBound, all};
+use crate::envelope::{Envelope, Timeouts, WarningBound, permit};
 use crate::evidence::{BrakePedal, Evidence, SeatView};
 use crate::high_voltage::{Restart, Stage};
 use crate::input::Inputs;
@@ -89,6 +89,7 @@ fn envelope(
     let situation = Situation { mitigation, threat, mode: drive.mode, safe_state: must.safe_state };
     let held = must.safe_state.then_some(Reason::SafeState);
     let contactors = high_voltage.bounds(evidence, inputs, held, config);
+    let steering = next.steering.bound(drive.mode, must.safe_state, evidence, inputs, ticks, config);
     Envelope {
         timeouts: Timeouts { ms50: config.timeout_50, ms100: config.timeout_100, ms200: config.timeout_200 },
         gear: next.gear.bound(parking, seat, evidence, inputs, must.safe_state, config),
@@ -96,17 +97,19 @@ fn envelope(
         torque: drive.bound(must, automated, threat, evidence, inputs, ticks, config),
         target_speed: drive.target_speed(must, automated, config),
         epb: parking.bound(seat, evidence, inputs, must.safe_state, config),
-        steering: next.steering.bound(drive.mode, must.safe_state, evidence, inputs, ticks, config),
+        steering,
         k4: contactors.k4,
         k1: contactors.k1,
-        auxiliaries_off: all(&[(evidence.standstill, Reason::NotStandstill)]),
+        auxiliaries_off: permit!(evidence.standstill => Reason::NotStandstill),
         warnings: WarningBound {
             forward_collision: mitigation.forward,
             pedestrian: mitigation.pedestrian,
             seat_leave: seat.leave,
             hazard_flashers: seat.leave || must.safe_state,
             fault_lamp: faults != Faults::NONE,
-            notice_lamp: next.steering.barred || !matches!(drive.exit, ExitReason::None | ExitReason::Requested),
+            notice_lamp: next.steering.barred
+                || (steering.enable.is_err() && next.steering.acts())
+                || !matches!(drive.exit, ExitReason::None | ExitReason::Requested),
         },
         lamp_decel: config.lamp_decel,
         lamps_delayed: brake.lamps > Millis::ZERO,
@@ -129,6 +132,7 @@ fn faults(next: &State, threat: &Threat, evidence: &Evidence, ticks: Ticks, conf
         .when(evidence.accelerator.is_none(), Faults::ACCELERATOR_UNKNOWN)
         .when(evidence.brake_pedal == BrakePedal::Unknown, Faults::BRAKE_PEDAL_UNKNOWN)
         .when(next.steering.taken_over(config), Faults::TAKEOVER)
+        .when(next.brake.lost.is_running(), Faults::BRAKE_COMMAND_LOST)
 }
 
 impl Decided {

@@ -1,13 +1,13 @@
 //! Who drives, and how much torque is permitted? (S2; TRQ-1 to TRQ-6, SPD-1, MODE-1)
 
 use crate::clock::Ticks;
-use crate::command::{DrivingMode, Origin, Outputs};
-use crate::envelope::{Bound, Permission, TorqueBound, all};
+use crate::command::{DriveTorque, DrivingMode, Origin, Outputs};
+use crate::envelope::{Bound, Permission, TorqueBound, permit};
 use crate::evidence::{BrakePedal, Evidence, percent};
 use crate::input::{AdsState, EpbState, Gear, Inputs};
 use crate::limits::Config;
 use crate::threat::Threat;
-use crate::units::{DecelMs2Q11, Millis, Pedal250, Percent, PercentPerS, SpeedKmhQ8, Timer};
+use crate::units::{DecelMs2Q11, Millis, Pedal250, Percent, PercentPerS, Rest, SpeedKmhQ8, Timer};
 use crate::verdict::{ExitReason, Reason};
 use crate::word::{codes, retained};
 
@@ -32,8 +32,12 @@ retained! {
         exit: ExitReason = ExitReason::None,
         /// Last output torque.
         torque: Percent = Percent::ZERO,
-        /// Last output torque of ADAS or EPBi; 0 if the driver's passed.
+        /// Last torque that ADAS or EPBi asked for, up to our bound: the driver's accelerator is compared with it.
         automated: Percent = Percent::ZERO,
+        /// Rest of the rising torque, below 1 %.
+        rest: Rest = Rest::ZERO,
+        /// The driver's "set" was seen off since the mode last ended: setting it is new evidence.
+        armed: bool = false,
         /// After leave: the accelerator must be seen released (TRQ-5).
         release_needed: bool = false,
         /// Torque against the brake (TRQ-6); runs until the brake demand ends.
@@ -95,7 +99,9 @@ impl Drive {
                 (if over { Mode::Suspended } else { Mode::Automated }, self.exit)
             }
         };
-        Self { mode, exit, release_needed, ..self }
+        let manual = mode == Mode::Manual;
+        let armed = manual && (inputs.driver_set.is(false) || (self.armed && self.mode == Mode::Manual));
+        Self { mode, exit, release_needed, armed, ..self }
     }
 
     /// TRQ-4: whether the driver's accelerator overrides.
@@ -119,9 +125,18 @@ impl Drive {
     }
 
     /// After vetting: what went out.
-    pub(crate) fn record(self, outputs: &Outputs, ticks: Ticks) -> Self {
-        let against = outputs.drive.torque > Percent::ZERO && outputs.brake.total > DecelMs2Q11::ZERO;
-        let hill = if outputs.brake.total == DecelMs2Q11::ZERO {
+    ///
+    /// `braking` is the total of service brake and retarder, `asked` a usable drive command.
+    pub(crate) fn record(
+        self,
+        outputs: &Outputs,
+        braking: DecelMs2Q11,
+        asked: Option<DriveTorque>,
+        ticks: Ticks,
+        config: &Config,
+    ) -> Self {
+        let against = outputs.drive.torque > Percent::ZERO && braking > DecelMs2Q11::ZERO;
+        let hill = if braking == DecelMs2Q11::ZERO {
             Timer::STOPPED
         } else if against || self.hill.is_running() {
             self.hill.run(ticks.safety)
@@ -133,8 +148,12 @@ impl Drive {
             (Mode::Automated | Mode::Suspended, DrivingMode::Manual) => (Mode::Manual, ExitReason::Requested),
             (mode, _) => (mode, self.exit),
         };
-        let automated = if outputs.drive.origin == Origin::Driver { Percent::ZERO } else { outputs.drive.torque };
-        Self { mode, exit, torque: outputs.drive.torque, automated, hill, ..self }
+        let automated = asked
+            .filter(|drive| drive.origin != Origin::Driver && drive.active)
+            .map_or(Percent::ZERO, |drive| drive.torque.min(config.automated_torque));
+        let armed = self.armed && mode == Mode::Manual;
+        let (_, rest) = self.rest.portion(config.torque_ramp.raw(), ticks.permission);
+        Self { mode, exit, torque: outputs.drive.torque, automated, rest, armed, hill, ..self }
     }
 
     /// MODE-1: the automated mode may begin (from manual) or go on.
@@ -147,12 +166,8 @@ impl Drive {
     ) -> Permission {
         let healthy = exit_reason(must, threat, evidence, inputs).is_none();
         let running = self.mode != Mode::Manual;
-        let evidence_of_driver = inputs.driver_set.is(true) && must.confirmed;
-        all(&[
-            (!must.clock_fault, Reason::ClockFault),
-            (must.reason().is_none() || running, must.reason().unwrap_or(Reason::Within)),
-            (healthy && (running || evidence_of_driver), Reason::ModeNotGranted),
-        ])
+        let evidence_of_driver = self.armed && inputs.driver_set.is(true) && must.confirmed;
+        permit!(!must.clock_fault => Reason::ClockFault, (must.reason().is_none() || running) => must.reason().unwrap_or(Reason::Within), (healthy && (running || evidence_of_driver)) => Reason::ModeNotGranted)
     }
 
     /// The torque bounds of this cycle.
@@ -200,14 +215,14 @@ impl Drive {
         automated.lower_if(!threat.known, Percent::ZERO, Reason::PerceptionUnknown);
         automated.lower(config.automated_torque, Reason::AccelerationBound);
 
-        let hill_hold =
-            must.confirmed && evidence.surely_below(config.hill_hold_speed) && !self.hill.reached(config.hill_hold);
+        let tired = self.hill.due(config.hill_hold, ticks.safety);
+        let hill_hold = must.confirmed && evidence.surely_below(config.hill_hold_speed) && !tired;
         TorqueBound { driver, automated, idle: config.idle_torque, hill_hold }
     }
 
     /// TRQ-5: the last output plus what the gradient allows in this cycle.
     fn ramped(&self, ramp: PercentPerS, elapsed: Millis) -> Percent {
-        let rise = u32::from(ramp.raw()).saturating_mul(elapsed.raw()) / 1000;
+        let (rise, _) = self.rest.portion(ramp.raw(), elapsed);
         Percent::new(self.torque.raw().saturating_add(u8::try_from(rise).unwrap_or(u8::MAX)).min(100))
     }
 
@@ -224,13 +239,10 @@ impl Drive {
 
 /// TRQ-1: the map of accelerator to torque, linear between its points, plus its tolerance.
 ///
-/// A pedal that is not pressed asks for nothing: the tolerance begins with the pedal.
+/// The tolerance begins where the pedal counts as pressed.
 fn pedal_map(travel: Pedal250, config: &Config) -> Percent {
     /// The points lie 10 % = 25 × 0.4 % apart.
     const STEP: u8 = 25;
-    if travel <= config.pedal_pressed {
-        return Percent::ZERO;
-    }
     let index = usize::from(travel.raw() / STEP);
     let rest = u16::from(travel.raw() % STEP);
     let point =
@@ -238,20 +250,21 @@ fn pedal_map(travel: Pedal250, config: &Config) -> Percent {
     let (here, next) = (point(index), point(index.saturating_add(1)));
     let rise = u16::from(next.saturating_sub(here)).saturating_mul(rest) / u16::from(STEP);
     let torque = here.saturating_add(u8::try_from(rise).unwrap_or(u8::MAX));
-    Percent::new(torque.saturating_add(config.pedal_tolerance.raw()).min(100))
+    let tolerance = if travel > config.pedal_pressed { config.pedal_tolerance.raw() } else { 0 };
+    Percent::new(torque.saturating_add(tolerance).min(100))
 }
 
 /// MODE-1: the first reason for which the automated mode may not go on.
 fn exit_reason(must: Obligations, threat: &Threat, evidence: &Evidence, inputs: &Inputs) -> Option<ExitReason> {
-    let reasons = [
-        (must.safe_state || must.clock_fault, ExitReason::Fault),
-        (must.leave, ExitReason::Leave),
-        (evidence.brake_pedal != BrakePedal::Released, ExitReason::BrakePedal),
-        (must.takeover, ExitReason::Takeover),
-        (!inputs.cruise_switch.is(true), ExitReason::Switch),
-        (!matches!(inputs.ads.known(), Some(AdsState::Ready | AdsState::Active)), ExitReason::AdsState),
-        (must.brake_lost, ExitReason::CommandLost),
-        (!threat.known || evidence.speed.is_none() || evidence.accelerator.is_none(), ExitReason::InputLost),
-    ];
-    reasons.into_iter().find(|(holds, _)| *holds).map(|(_, reason)| reason)
+    let permission = permit!(
+        !(must.safe_state || must.clock_fault) => ExitReason::Fault,
+        !must.leave => ExitReason::Leave,
+        (evidence.brake_pedal == BrakePedal::Released) => ExitReason::BrakePedal,
+        !must.takeover => ExitReason::Takeover,
+        inputs.cruise_switch.is(true) => ExitReason::Switch,
+        matches!(inputs.ads.known(), Some(AdsState::Ready | AdsState::Active)) => ExitReason::AdsState,
+        !must.brake_lost => ExitReason::CommandLost,
+        (threat.known && evidence.speed.is_some() && evidence.accelerator.is_some()) => ExitReason::InputLost,
+    );
+    permission.err()
 }

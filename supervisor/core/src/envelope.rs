@@ -41,13 +41,13 @@ impl<T: PartialOrd + Copy> Bound<T> {
 /// A permission, or why it is refused.
 pub type Permission = Result<(), Reason>;
 
-/// The first refusal of a list of (holds, reason if not).
-pub(crate) fn all(conditions: &[(bool, Reason)]) -> Permission {
-    match conditions.iter().find(|(holds, _)| !holds) {
-        Some((_, reason)) => Err(*reason),
-        None => Ok(()),
-    }
+/// Permitted when every condition holds; refused with the reason beside the first that does not.
+macro_rules! permit {
+    ($($condition:expr => $reason:expr),+ $(,)?) => {
+        $(if !$condition { Err($reason) } else)+ { Ok(()) }
+    };
 }
+pub(crate) use permit;
 
 macro_rules! bounds {
     ($($(#[$doc:meta])* $name:ident { $($(#[$field_doc:meta])* $field:ident: $type:ty,)+ })*) => {$(
@@ -130,6 +130,8 @@ bounds! {
         angle_most: AngleDeciDeg,
         /// The angle that asks for nothing: measured, or the last one.
         angle_neutral: AngleDeciDeg,
+        /// Greatest angle that the channel can express, either way.
+        range: AngleDeciDeg,
         /// Greatest rate.
         rate: RateDeciDegS,
         /// Greatest overlay torque, either way.

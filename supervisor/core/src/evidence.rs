@@ -29,8 +29,8 @@ pub(crate) enum SeatView {
 /// The brake pedal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum BrakePedal {
-    /// Known pressed, at least this far.
-    Pressed(Pedal250),
+    /// Known pressed, this far where both tracks agree.
+    Pressed(Option<Pedal250>),
     /// Known released by the switch and both tracks.
     Released,
     /// Neither.
@@ -64,6 +64,11 @@ fn pedal(signal: Signal<Pedal250>) -> Option<Pedal250> {
     signal.known().filter(|travel| *travel <= PEDAL_FULL)
 }
 
+/// The deeper track that is known; 0 if none is.
+fn deepest([first, second]: [Signal<Pedal250>; 2]) -> Pedal250 {
+    pedal(first).max(pedal(second)).unwrap_or(Pedal250::ZERO)
+}
+
 fn agreed([first, second]: [Signal<Pedal250>; 2], config: &Config) -> Option<Pedal250> {
     let (first, second) = (pedal(first)?, pedal(second)?);
     (first.raw().abs_diff(second.raw()) <= config.pedal_agree.raw()).then_some(first.min(second))
@@ -80,10 +85,9 @@ fn speed(inputs: &Inputs, config: &Config) -> Option<Speed> {
 }
 
 fn brake_pedal(inputs: &Inputs, config: &Config) -> BrakePedal {
-    let [first, second] = inputs.brake_pedal.map(pedal);
-    let deepest = first.max(second).unwrap_or(Pedal250::ZERO);
+    let deepest = deepest(inputs.brake_pedal);
     if inputs.brake_switch.is(true) || deepest > config.pedal_pressed {
-        BrakePedal::Pressed(deepest)
+        BrakePedal::Pressed(agreed(inputs.brake_pedal, config).and(Some(deepest)))
     } else if inputs.brake_switch.is(false) && agreed(inputs.brake_pedal, config).is_some() {
         BrakePedal::Released
     } else {
@@ -106,13 +110,12 @@ impl Evidence {
             speed,
             seat,
             accelerator: agreed(inputs.accelerator, config),
-            accelerator_pressed: inputs
-                .accelerator
-                .into_iter()
-                .filter_map(pedal)
-                .any(|travel| travel > config.pedal_pressed),
+            accelerator_pressed: deepest(inputs.accelerator) > config.pedal_pressed,
             brake_pedal: brake_pedal(inputs, config),
-            steering_angle: inputs.steering_angle.known().filter(|angle| angle.raw().unsigned_abs() <= 7200),
+            steering_angle: inputs
+                .steering_angle
+                .known()
+                .filter(|angle| angle.raw().unsigned_abs() <= config.steering_range.raw().unsigned_abs()),
             standstill: speed.is_some_and(|speed| speed.high < config.standstill_speed),
         }
     }

@@ -1,6 +1,6 @@
 //! Which gear may be asked for? (GEAR-1, SEAT-6)
 
-use crate::envelope::{GearBound, Permission, all};
+use crate::envelope::{GearBound, Permission, permit};
 use crate::evidence::Evidence;
 use crate::input::{EpbState, Gear, Inputs};
 use crate::limits::Config;
@@ -55,25 +55,16 @@ impl GearState {
         let rolling = evidence.surely_at_least(config.epb_speed) && inputs.epb.is(EpbState::Released);
         let gear = |selected: Gear, direction: Direction| -> Permission {
             let may_change = evidence.standstill || (evidence.speed.is_some() && self.direction == direction);
-            all(&[
-                (!safe_state, Reason::SafeState),
-                (confirmed || rolling, Reason::SeatNotOccupied),
-                (inputs.selector.is(selected), Reason::Selector),
-                (may_change, Reason::NotStandstill),
-            ])
+            permit!(!safe_state => Reason::SafeState, (confirmed || rolling) => Reason::SeatNotOccupied, inputs.selector.is(selected) => Reason::Selector, may_change => Reason::NotStandstill)
         };
         GearBound {
             confirmed: inputs.gear.known(),
             neutral: parking.by_leave && parked && !confirmed && !safe_state,
             drive: gear(Gear::Drive, Direction::Forward),
             reverse: gear(Gear::Reverse, Direction::Reverse),
-            park: all(&[
-                (!safe_state, Reason::SafeState),
-                (confirmed, Reason::SeatNotOccupied),
-                (inputs.selector.is(Gear::Park), Reason::Selector),
-                (evidence.standstill, Reason::NotStandstill),
-            ]),
-            to_neutral: all(&[(!safe_state, Reason::SafeState)]),
+            park: permit!(!safe_state => Reason::SafeState, confirmed => Reason::SeatNotOccupied, inputs.selector.is(Gear::Park) => Reason::Selector, evidence.standstill => Reason::NotStandstill),
+            // SEAT-4: a parking brake that does not confirm leaves the gear as it is.
+            to_neutral: permit!(!safe_state => Reason::SafeState, !parking.overdue(config) => Reason::EpbApply),
         }
     }
 }

@@ -7,7 +7,7 @@
 //! - K1 may close ⇒ restart complete and K4 known open; K4 may close ⇒ restart complete and K1 known closed.
 
 use crate::clock::Ticks;
-use crate::envelope::{ContactorBound, Permission, all};
+use crate::envelope::{ContactorBound, Permission, permit};
 use crate::evidence::{Evidence, SeatView, percent};
 use crate::input::{Contact, EpbState, Inputs, Key};
 use crate::limits::Config;
@@ -94,6 +94,7 @@ impl HighVoltage {
         let restart = self.restart(seat, clean, evidence, inputs, config);
         let begin = parked.reached(config.shutdown_after)
             && !(k4_open && k1_open)
+            && evidence.seat == SeatView::Vacant
             && evidence.standstill
             && inputs.epb.is(EpbState::Applied)
             && torque_stopped(inputs, config);
@@ -160,25 +161,26 @@ impl HighVoltage {
 
     /// The bounds of this cycle.
     pub(crate) fn bounds(&self, evidence: &Evidence, inputs: &Inputs, held: Option<Reason>, config: &Config) -> Bounds {
-        let standing: Permission = held.map_or_else(|| all(&[(evidence.standstill, Reason::NotStandstill)]), Err);
+        let standing: Permission = held.map_or_else(|| permit!(evidence.standstill => Reason::NotStandstill), Err);
         let committed = matches!(self.stage, Stage::OpeningK4 | Stage::OpeningK1);
-        let k4_open = standing.and_then(|()| all(&[(torque_stopped(inputs, config), Reason::LoadsNotStopped)]));
+        let k4_open = standing.and_then(|()| permit!(torque_stopped(inputs, config) => Reason::LoadsNotStopped));
         let k1_open = standing.and_then(|()| {
-            all(&[
-                (inputs.k4.is(Contact::Open), Reason::K4NotOpen),
-                (loads_stopped(inputs, config), Reason::LoadsNotStopped),
-            ])
+            permit!(inputs.k4.is(Contact::Open) => Reason::K4NotOpen, loads_stopped(inputs, config) => Reason::LoadsNotStopped)
         });
         // SEAT-8, HV-1: closing needs the driver's restart, and no shutdown in progress.
         let closing = held.map_or_else(
-            || all(&[(!committed, Reason::Shutdown), (self.restart == Restart::Started, Reason::NoRestart)]),
+            || permit!(!committed => Reason::Shutdown, (self.restart == Restart::Started) => Reason::NoRestart),
             Err,
         );
-        let k1_close = closing.and_then(|()| all(&[(inputs.k4.is(Contact::Open), Reason::K4NotOpen)]));
-        let k4_close = closing.and_then(|()| all(&[(inputs.k1.is(Contact::Closed), Reason::K1NotClosed)]));
+        let k1_close = closing.and_then(|()| permit!(inputs.k4.is(Contact::Open) => Reason::K4NotOpen));
+        let k4_close = closing.and_then(|()| permit!(inputs.k1.is(Contact::Closed) => Reason::K1NotClosed));
         Bounds {
             // The guards stand inside the obligation (rule 4): guard lost ⇒ it waits.
-            k4: ContactorBound { obliged: committed && k4_open.is_ok(), open: k4_open, close: k4_close },
+            k4: ContactorBound {
+                obliged: committed && inputs.epb.is(EpbState::Applied) && k4_open.is_ok(),
+                open: k4_open,
+                close: k4_close,
+            },
             k1: ContactorBound {
                 obliged: self.stage == Stage::OpeningK1 && k1_open.is_ok(),
                 open: k1_open,

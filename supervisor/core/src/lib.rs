@@ -81,7 +81,7 @@ pub use step::{Decision, Occupancy, Status, record, step};
 pub use threat::{Alert, Closing, Level, Object, Threat};
 pub use units::{
     AngleDeciDeg, BarTorque50mNm, ClosingCmS, Count, CurrentDeciA, DecelMs2Q11, DistanceCm, Millis, OffsetCm, Pedal250,
-    Percent, PercentPerS, RateDeciDegS, SpeedKmhQ8, Timer, TorqueNmQ10,
+    Percent, PercentPerS, RateDeciDegS, Rest, SpeedKmhQ8, Timer, TorqueNmQ10,
 };
 pub use verdict::{ExitReason, Faults, Kind, Reason, Verdict, Verdicts};
 pub use vet::{

@@ -3,6 +3,7 @@
 //! Nothing else in the supervisor holds a number of its own. "own" means that no source gives it: a default of
 //! ours that the safety case names as an assumption.
 
+use crate::envelope::permit;
 use crate::units::{
     AngleDeciDeg, BarTorque50mNm, Count, CurrentDeciA, DecelMs2Q11, DistanceCm, Millis, OffsetCm, Pedal250, Percent,
     PercentPerS, RateDeciDegS, SpeedKmhQ8, TorqueNmQ10,
@@ -127,11 +128,11 @@ limits! {
     /// What the safety timers get in a cycle with a clock fault.
     cycle_nominal: Millis = [10], 1..=50, "ms", "S1 table 2 (10 ms period)", "SELF-3d";
     /// Time-out of what is sent every 50 ms.
-    timeout_50: Millis = [125], 75..=250, "ms", "S4 table 5 × 2.5 (own)", "E2E-1g";
+    timeout_50: Millis = [125], 75..=180, "ms", "S4 table 5 × 2.5 (own)", "E2E-1g";
     /// Time-out of what is sent every 100 ms.
     timeout_100: Millis = [250], 150..=500, "ms", "S4 table 5 × 2.5 (own)", "E2E-1g";
     /// Time-out of what is sent every 200 ms.
-    timeout_200: Millis = [500], 300..=1000, "ms", "S4 table 5 × 2.5 (own)", "E2E-1g";
+    timeout_200: Millis = [500], 300..=680, "ms", "S4 table 5 × 2.5 (own)", "E2E-1g";
     /// How long a sender must be right again after a gap before it counts.
     requalify: Millis = [1000], 640..=5000, "ms", "own (0.64 s of wrong content seen in a real log)", "E2E-1j";
 
@@ -149,7 +150,7 @@ limits! {
     /// Both sensors vacant for this long is *leave*.
     seat_vacant: Millis = [2000], 500..=5000, "ms", "S3 §2.1", "SEAT-1";
     /// Unknown sensors freeze the vacancy this long, then reset it.
-    seat_freeze: Millis = [500], 100..=1000, "ms", "own", "SEAT-1";
+    seat_freeze: Millis = [500], 100..=580, "ms", "own", "SEAT-1";
     /// Below this the parking brake is applied in leave, and may be applied otherwise.
     epb_speed: SpeedKmhQ8 = [384], 128..=512, "1/256 km/h", "S3 §2.4 (1.5 km/h)", "SEAT-4";
     /// An apply that is not confirmed in this time is reported.
@@ -164,15 +165,15 @@ limits! {
     /// Below this speed `leave_hold` holds until the parking brake is confirmed.
     leave_hold_speed: SpeedKmhQ8 = [512], 256..=1280, "1/256 km/h", "own (S3 table 1, second point)", "SEAT-3";
     /// After boot, how long to wait for the seat to be known.
-    boot_settle: Millis = [2000], 1000..=10000, "ms", "own", "SELF-9";
+    boot_settle: Millis = [4000], 2000..=20000, "ms", "own", "SELF-9";
 
     // High voltage (S3 §2.6)
     /// Parked by leave for this long: high voltage is shut down.
     shutdown_after: Millis = [600_000], 60_000..=3_600_000, "ms", "S3 §2.6 (10 min)", "SEAT-7";
     /// K4 is confirmed open in this time, or it is reported.
-    k4_deadline: Millis = [2000], 200..=10000, "ms", "own", "SEAT-7";
+    k4_deadline: Millis = [2000], 200..=5000, "ms", "own", "SEAT-7";
     /// Loads stopped and K1 confirmed open in this time, or it is reported.
-    k1_deadline: Millis = [10000], 1000..=60000, "ms", "own", "SEAT-7";
+    k1_deadline: Millis = [10000], 1000..=50000, "ms", "own", "SEAT-7";
     /// A current of no more than this is "stopped".
     stopped_current: CurrentDeciA = [20], 0..=100, "0.1 A", "own", "SEAT-7";
     /// A torque of no more than this is "no drive torque".
@@ -205,6 +206,8 @@ limits! {
     pedestrian_offset: OffsetCm = [200], 100..=400, "cm", "S1 §3.1.2 (2), reading a", "PCW-1";
     /// Half-width of the corridor.
     corridor: OffsetCm = [160], 130..=250, "cm", "own (half of 2.55 m and a margin)", "FUS-3";
+    /// A measured deceleration beyond this is not plausible.
+    decel_plausible: DecelMs2Q11 = [20480], 12288..=40960, "1/2048 m/s²", "own (10 m/s²)", "MIT-6";
     /// Gap that shall remain.
     gap_margin: DistanceCm = [100], 0..=500, "cm", "own", "MIT-6";
     /// The same radar object in this many updates is consistent.
@@ -265,6 +268,8 @@ limits! {
     speed_limit: SpeedKmhQ8 = [15360], 2560..=25600, "1/256 km/h", "S3 §2.3 (60 km/h)", "SPD-1";
 
     // Steering (S4 6.3)
+    /// Steering-wheel angles lie within this, either way.
+    steering_range: AngleDeciDeg = [7200], 7200..=7200, "0.1°", "S4 table 4 (±720°)", "STR-1";
     /// Greatest angle up to 10, 20, 30, 40, 60, 80 km/h, and above: about 3 m/s² lateral.
     steering_angle: Row<AngleDeciDeg, 7> = [7200, 6670, 2970, 1670, 740, 410, 260], 0..=7200, "0.1°", "S4 table 4 (±720°), own", "STR-1";
     /// Greatest rate up to the same speeds.
@@ -278,7 +283,7 @@ limits! {
     /// A driver's torque beyond this takes over.
     takeover_torque: TorqueNmQ10 = [6144], 2048..=10240, "1/1024 Nm", "S4 6.3.4 (6 Nm)", "STR-2";
     /// After this long.
-    takeover_time: Millis = [300], 50..=1000, "ms", "S4 6.3.4", "STR-2";
+    takeover_time: Millis = [300], 50..=580, "ms", "S4 6.3.4", "STR-2";
     /// The steering torque fades in and out by this much per second.
     steering_fade: PercentPerS = [100], 100..=1000, "% per s", "own", "STR-2";
     /// Automatic steering, lowest speed.
@@ -302,45 +307,28 @@ impl Config {
         let [enter_one, enter_two, _] = self.level_angle.0;
         let [_, _, decel_three] = self.level_decel.0;
         let leave_greatest = self.leave_decel.0.last().copied().unwrap_or(self.leave_hold);
-        let relations = [
-            (
-                self.cycle_nominal >= self.cycle_least && self.cycle_nominal <= self.cycle_greatest,
-                "cycle_least <= cycle_nominal <= cycle_greatest",
-            ),
-            (self.timeout_50 > self.cycle_greatest, "timeout_50 > cycle_greatest"),
-            (
-                self.timeout_50 <= self.timeout_100 && self.timeout_100 <= self.timeout_200,
-                "timeout_50 <= timeout_100 <= timeout_200",
-            ),
-            (self.standstill_speed < self.epb_speed, "standstill_speed < epb_speed"),
-            (self.seat_freeze < self.seat_vacant, "seat_freeze < seat_vacant"),
-            (self.boot_settle > self.seat_confirm, "boot_settle > seat_confirm"),
-            (self.epb_speed <= self.leave_hold_speed, "epb_speed <= leave_hold_speed"),
-            (rising(&self.leave_decel.0), "leave_decel rises with speed"),
-            (
-                leave_greatest <= self.brake_cap && self.leave_hold <= self.brake_cap,
-                "leave_decel, leave_hold <= brake_cap",
-            ),
-            (falling(&self.level_ttc.0), "level_ttc falls with the level"),
-            (
-                rising(&self.level_decel.0) && decel_three <= self.brake_cap,
-                "level_decel rises with the level, up to brake_cap",
-            ),
-            (enter_one <= exit_one && enter_two <= exit_two, "level_angle <= level_exit_angle"),
-            (rising(&self.forward_ttc.0) && rising(&self.pedestrian_ttc.0), "warnings go on below and off above"),
-            (self.comfort_cap <= self.brake_cap, "comfort_cap <= brake_cap"),
-            (rising(&self.pedal_map.0), "pedal_map rises with the pedal"),
-            (
-                falling(&self.steering_angle.0) && falling(&self.steering_rate.0),
-                "steering_angle, steering_rate fall with speed",
-            ),
-            (self.steering_overlay < self.takeover_torque, "steering_overlay < takeover_torque"),
-            (
-                self.steering_speed_least < self.steering_speed_greatest,
-                "steering_speed_least < steering_speed_greatest",
-            ),
-        ];
-        relations.into_iter().find(|(holds, _)| !holds).map(|(_, name)| name)
+        let broken: Result<(), &'static str> = permit!(
+            (self.cycle_nominal >= self.cycle_least && self.cycle_nominal <= self.cycle_greatest) => "cycle_least <= cycle_nominal <= cycle_greatest",
+            (self.timeout_50 > self.cycle_greatest) => "timeout_50 > cycle_greatest",
+            (self.timeout_50 <= self.timeout_100 && self.timeout_100 <= self.timeout_200) => "timeout_50 <= timeout_100 <= timeout_200",
+            (self.standstill_speed < self.epb_speed) => "standstill_speed < epb_speed",
+            (self.seat_freeze < self.seat_vacant) => "seat_freeze < seat_vacant",
+            (self.boot_settle.raw() > self.requalify.raw().saturating_add(self.seat_confirm.raw()).saturating_add(self.timeout_200.raw()))
+                => "boot_settle > requalify + seat_confirm + timeout_200",
+            (self.epb_speed <= self.leave_hold_speed) => "epb_speed <= leave_hold_speed",
+            (rising(&self.leave_decel.0)) => "leave_decel rises with speed",
+            (leave_greatest <= self.brake_cap && self.leave_hold <= self.brake_cap) => "leave_decel, leave_hold <= brake_cap",
+            (falling(&self.level_ttc.0)) => "level_ttc falls with the level",
+            (rising(&self.level_decel.0) && decel_three <= self.brake_cap) => "level_decel rises with the level, up to brake_cap",
+            (enter_one <= exit_one && enter_two <= exit_two) => "level_angle <= level_exit_angle",
+            (rising(&self.forward_ttc.0) && rising(&self.pedestrian_ttc.0)) => "warnings go on below and off above",
+            (self.comfort_cap <= self.brake_cap) => "comfort_cap <= brake_cap",
+            (rising(&self.pedal_map.0)) => "pedal_map rises with the pedal",
+            (falling(&self.steering_angle.0) && falling(&self.steering_rate.0)) => "steering_angle, steering_rate fall with speed",
+            (self.steering_overlay < self.takeover_torque) => "steering_overlay < takeover_torque",
+            (self.steering_speed_least < self.steering_speed_greatest) => "steering_speed_least < steering_speed_greatest",
+        );
+        broken.err()
     }
 
     /// Every value in range and every relation kept: what the proofs call *any valid configuration*.

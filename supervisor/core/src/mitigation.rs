@@ -8,7 +8,7 @@ use crate::evidence::{BrakePedal, Evidence};
 use crate::input::{EpbState, Inputs};
 use crate::limits::Config;
 use crate::threat::{Alert, Closing, Level, Threat};
-use crate::units::{DecelMs2Q11, Timer};
+use crate::units::{AngleDeciDeg, DecelMs2Q11, Timer};
 use crate::word::retained;
 
 retained! {
@@ -65,12 +65,8 @@ impl Mitigation {
     /// MIT-4: the demand is the greatest of the set latches.
     pub(crate) fn demand(&self, config: &Config) -> DecelMs2Q11 {
         let [one, two, three] = config.level_decel.0;
-        match self.level() {
-            Level::Three => three,
-            Level::Two => two,
-            Level::One => one,
-            Level::None => DecelMs2Q11::ZERO,
-        }
+        let of = |set: bool, decel: DecelMs2Q11| if set { decel } else { DecelMs2Q11::ZERO };
+        of(self.one, one).max(of(self.two, two)).max(of(self.three, three))
     }
 
     pub(crate) fn advance(
@@ -83,15 +79,20 @@ impl Mitigation {
         config: &Config,
     ) -> Self {
         let angle = evidence.steering_angle.map(|angle| angle.raw().unsigned_abs());
-        let [enter_one, enter_two, enter_three] = config.level_angle.0.map(|limit| limit.raw().unsigned_abs());
-        let [exit_one, exit_two] = config.level_exit_angle.0.map(|limit| limit.raw().unsigned_abs());
+        let [enter_one, enter_two, enter_three] = config.level_angle.0;
+        let [exit_one, exit_two] = config.level_exit_angle.0;
 
         // MIT-6: nothing new is obliged when slow, or while the bus already brakes enough. Both need evidence.
         let slow = evidence.obliged_below(config.level_least_speed);
-        let braking = inputs.deceleration.known().is_some_and(|measured| measured >= threat.required);
+        let braking = inputs
+            .deceleration
+            .known()
+            .is_some_and(|measured| measured >= threat.required && measured <= config.decel_plausible);
         let open = !slow && !braking;
         // MIT-7: unknown angle, no new entry.
-        let enter = |level, limit| open && threat.level >= level && angle.is_some_and(|angle| angle < limit);
+        let enter = |level, limit: AngleDeciDeg| {
+            open && threat.level >= level && angle.is_some_and(|angle| angle < limit.raw().unsigned_abs())
+        };
 
         let gone = self.gone.run_while(threat.closing == Closing::No, ticks.permission);
         let standstill = self.standstill.run_while(evidence.standstill, ticks.permission);
@@ -99,8 +100,10 @@ impl Mitigation {
         let over = standstill.reached(config.level_standstill) || speedless.reached(config.level_speedless);
         // MIT-4: the driver's steering ends levels 1 and 2; in automatic steering only after a takeover.
         let by_driver = !steered.automatic || steered.takeover;
-        let leaves =
-            |limit| over || gone.reached(config.level_gone) || (by_driver && angle.is_some_and(|angle| angle > limit));
+        let leaves = |limit: AngleDeciDeg| {
+            over || gone.reached(config.level_gone)
+                || (by_driver && angle.is_some_and(|angle| angle > limit.raw().unsigned_abs()))
+        };
 
         let braked = matches!(evidence.brake_pedal, BrakePedal::Pressed(_)) || inputs.epb.is(EpbState::Applied);
         Self {

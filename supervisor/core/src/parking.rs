@@ -10,7 +10,7 @@
 
 use crate::clock::Ticks;
 use crate::command::{EpbRequest, Outputs};
-use crate::envelope::{EpbBound, all};
+use crate::envelope::{EpbBound, permit};
 use crate::evidence::{Evidence, SeatView};
 use crate::input::{Contact, EpbState, EpbSwitch, Gear, Inputs};
 use crate::limits::Config;
@@ -114,16 +114,19 @@ impl Parking {
             switch.then_some(Reason::DriverSwitch)
         };
         let slow = evidence.surely_below(config.epb_speed);
-        EpbBound {
-            obliged,
-            apply: all(&[(obliged.is_some() || slow, Reason::EpbSpeed)]),
-            release: all(&[
-                (seat.confirmed(config) && evidence.seat == SeatView::Occupied, Reason::SeatNotOccupied),
-                (!safe_state, Reason::SafeState),
-                (obliged != Some(Reason::EpbApply), Reason::EpbApply),
-                (!switch, Reason::DriverSwitch),
-                (!self.by_leave || self.pedal == PedalChain::PressedAnew, Reason::ParkedByLeave),
-            ]),
-        }
+        let release = permit!(
+            (seat.confirmed(config) && evidence.seat == SeatView::Occupied) => Reason::SeatNotOccupied,
+            !safe_state => Reason::SafeState,
+            (obliged != Some(Reason::EpbApply)) => Reason::EpbApply,
+            !switch => Reason::DriverSwitch,
+            (!self.by_leave || self.pedal == PedalChain::PressedAnew) => Reason::ParkedByLeave,
+        );
+        // EPB-1: the driver's own switch goes first, either way.
+        let driver_releases = inputs.epb_switch.is(EpbSwitch::Release) && release.is_ok();
+        let apply = permit!(
+            (obliged.is_some() || slow) => Reason::EpbSpeed,
+            (obliged.is_some() || !driver_releases) => Reason::DriverSwitch,
+        );
+        EpbBound { obliged, apply, release }
     }
 }

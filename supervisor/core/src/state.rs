@@ -57,7 +57,11 @@ impl State {
             boot: Boot::new(clean),
             seat: SeatState { leave, ..SeatState::INITIAL },
             parking: Parking { by_leave: leave || down, ..Parking::INITIAL },
-            high_voltage: HighVoltage { stage: if down { Stage::Down } else { Stage::Up }, ..HighVoltage::INITIAL },
+            // What is already open is seen by its feedback; what is not, is still owed.
+            high_voltage: HighVoltage {
+                stage: if down { Stage::OpeningK4 } else { Stage::Up },
+                ..HighVoltage::INITIAL
+            },
             ..Self::INITIAL
         }
     }

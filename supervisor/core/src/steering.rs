@@ -6,11 +6,11 @@
 use crate::clock::Ticks;
 use crate::command::Outputs;
 use crate::drive::Mode;
-use crate::envelope::{Permission, SteeringBound, all};
+use crate::envelope::{Permission, SteeringBound, permit};
 use crate::evidence::Evidence;
 use crate::input::{EpsState, Inputs};
 use crate::limits::Config;
-use crate::units::{AngleDeciDeg, Millis, Percent, PercentPerS, SpeedKmhQ8, Timer, TorqueNmQ10};
+use crate::units::{AngleDeciDeg, Percent, RateDeciDegS, Rest, SpeedKmhQ8, Timer, TorqueNmQ10};
 use crate::verdict::Reason;
 use crate::word::retained;
 
@@ -21,6 +21,10 @@ retained! {
         weight: Percent = Percent::ZERO,
         /// Last output angle; the measured one while nothing acts.
         angle: AngleDeciDeg = AngleDeciDeg::ZERO,
+        /// Rest of the reachable angle, below 0.1°.
+        angle_rest: Rest = Rest::ZERO,
+        /// Rest of the fading weight, below 1 %.
+        fade_rest: Rest = Rest::ZERO,
         /// Last output overlay torque.
         overlay: TorqueNmQ10 = TorqueNmQ10::ZERO,
         /// The driver's torque is beyond the takeover torque.
@@ -43,9 +47,10 @@ fn row(speed: SpeedKmhQ8) -> usize {
     }
 }
 
-fn share(per_second: PercentPerS, elapsed: Millis) -> u8 {
-    let share = u32::from(per_second.raw()).saturating_mul(elapsed.raw()).div_ceil(1000);
-    u8::try_from(share).unwrap_or(u8::MAX)
+/// The rate table at a speed; unknown speed: the bounds of the highest.
+fn rate(evidence: &Evidence, config: &Config) -> RateDeciDegS {
+    let row = evidence.speed.map_or(6, |speed| row(speed.high));
+    config.steering_rate.0.get(row).copied().unwrap_or_default()
 }
 
 impl SteeringState {
@@ -64,13 +69,26 @@ impl SteeringState {
         let strong = inputs.driver_torque.known().is_some_and(|torque| torque.raw().unsigned_abs() > limit);
         let takeover = self.takeover.run_while(strong, ticks.safety);
         let angle = if self.acts() { self.angle } else { evidence.steering_angle.unwrap_or(self.angle) };
+        let acted = |rest| if self.acts() { rest } else { Rest::ZERO };
+        let (angle_rest, fade_rest) = (acted(self.angle_rest), acted(self.fade_rest));
         let barred = self.barred || takeover.reached(config.takeover_time);
-        Self { takeover, angle, barred, ..self }
+        Self { takeover, angle, barred, angle_rest, fade_rest, ..self }
     }
 
     /// After vetting. `asked` says whether a usable command asked for automatic steering.
-    pub(crate) fn record(self, outputs: &Outputs, asked: bool) -> Self {
+    pub(crate) fn record(
+        self,
+        outputs: &Outputs,
+        bound: &SteeringBound,
+        asked: bool,
+        ticks: Ticks,
+        config: &Config,
+    ) -> Self {
+        let (_, angle_rest) = self.angle_rest.portion(bound.rate.raw(), ticks.permission);
+        let (_, fade_rest) = self.fade_rest.portion(config.steering_fade.raw(), ticks.permission);
         Self {
+            angle_rest,
+            fade_rest,
             weight: outputs.steering.weight,
             angle: outputs.steering.angle,
             overlay: outputs.steering.overlay,
@@ -91,14 +109,7 @@ impl SteeringState {
             speed.low >= config.steering_speed_least && speed.high <= config.steering_speed_greatest
         });
         let granted = self.acts() || mode != Mode::Manual;
-        all(&[
-            (!safe_state, Reason::SafeState),
-            (!self.barred, Reason::Takeover),
-            (matches!(inputs.eps.known(), Some(EpsState::Ready | EpsState::Active)), Reason::PowerSteering),
-            (evidence.steering_angle.is_some() && inputs.driver_torque.known().is_some(), Reason::SteeringRefused),
-            (in_range, Reason::SteeringSpeed),
-            (granted && !inputs.cruise_switch.is(false), Reason::SteeringRefused),
-        ])
+        permit!(!safe_state => Reason::SafeState, !self.barred => Reason::Takeover, matches!(inputs.eps.known(), Some(EpsState::Ready | EpsState::Active)) => Reason::PowerSteering, (evidence.steering_angle.is_some() && inputs.driver_torque.known().is_some()) => Reason::SteeringRefused, in_range => Reason::SteeringSpeed, (granted && !inputs.cruise_switch.is(false)) => Reason::SteeringRefused)
     }
 
     pub(crate) fn bound(
@@ -114,27 +125,30 @@ impl SteeringState {
         // Unknown speed: the bounds of the highest speed.
         let row = evidence.speed.map_or(6, |speed| row(speed.high));
         let limit = config.steering_angle.0.get(row).map_or(0, |angle| angle.raw());
-        let rate = config.steering_rate.0.get(row).copied().unwrap_or_default();
+        let rate = rate(evidence, config);
 
         // STR-1: the window of speed and measured angle, then what the rate can reach of it: no jump, ever.
         let measured = evidence.steering_angle.unwrap_or(self.angle).raw();
-        let deviation = config.steering_deviation.raw();
-        let window = |edge: i16| edge.clamp(limit.saturating_neg().min(limit), limit.max(limit.saturating_neg()));
-        let reach = u32::from(rate.raw()).saturating_mul(ticks.permission.raw()) / 1000;
+        let deviation = config.steering_deviation.raw().max(0);
+        let window = |edge: i16| edge.max(limit.saturating_neg()).min(limit);
+        let (reach, _) = self.angle_rest.portion(rate.raw(), ticks.permission);
         let reach = i16::try_from(reach).unwrap_or(i16::MAX);
         let (from, to) = (self.angle.raw().saturating_sub(reach), self.angle.raw().saturating_add(reach));
-        let least = window(measured.saturating_sub(deviation)).clamp(from, to);
-        let most = window(measured.saturating_add(deviation)).clamp(from, to);
+        let least = window(measured.saturating_sub(deviation)).max(from).min(to);
+        let most = window(measured.saturating_add(deviation)).max(from).min(to);
 
-        let fade_out = share(config.steering_fade, ticks.safety);
-        let fade_in = share(config.steering_fade, ticks.permission);
+        let share =
+            |ticks| u8::try_from(self.fade_rest.portion(config.steering_fade.raw(), ticks).0).unwrap_or(u8::MAX);
+        let (fade_in, fade_out) = (share(ticks.permission), share(ticks.safety));
         let weight = self.weight.raw().min(100);
         let (overlay, neutral) = self.overlay(fade_in, fade_out, config);
         SteeringBound {
             enable,
             angle_least: AngleDeciDeg::new(least),
             angle_most: AngleDeciDeg::new(most),
-            angle_neutral: self.angle,
+            // Where it is, as far as the window allows: asking for nothing is inside the envelope, too.
+            angle_neutral: AngleDeciDeg::new(self.angle.raw().max(least).min(most)),
+            range: config.steering_range,
             rate,
             overlay,
             overlay_neutral: neutral,
@@ -156,6 +170,6 @@ impl SteeringState {
         let fade = step(fade_out);
         let faded = if last > 0 { last.saturating_sub(fade).max(0) } else { last.saturating_add(fade).min(0) };
         let bound = most.min(config.steering_overlay.raw().max(0));
-        (TorqueNmQ10::new(bound), TorqueNmQ10::new(faded.clamp(bound.saturating_neg(), bound)))
+        (TorqueNmQ10::new(bound), TorqueNmQ10::new(faded.max(bound.saturating_neg()).min(bound)))
     }
 }

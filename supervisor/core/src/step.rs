@@ -107,12 +107,18 @@ pub fn record(decided: &Decided, outputs: &Outputs, commands: &Commands, config:
     let timeouts = decided.envelope.timeouts;
     let usable = [commands.brake.usable(timeouts.ms50).is_ok(), commands.retarder.usable(timeouts.ms100).is_ok()];
     let asked = commands.steering.usable(timeouts.ms50).is_ok_and(|steering| steering.enable);
-    let state = decided.state;
+    let (state, bound) = (decided.state, &decided.envelope.brake);
     State {
         parking: state.parking.record(outputs),
-        drive: state.drive.record(outputs, decided.ticks),
-        brake: state.brake.record(outputs, &decided.envelope.brake, usable, decided.ticks, config),
-        steering: state.steering.record(outputs, asked),
+        drive: state.drive.record(
+            outputs,
+            bound.total(outputs),
+            commands.drive.usable(timeouts.ms50).ok(),
+            decided.ticks,
+            config,
+        ),
+        brake: state.brake.record(outputs, bound, usable, decided.ticks, config),
+        steering: state.steering.record(outputs, &decided.envelope.steering, asked, decided.ticks, config),
         body: outputs.body,
         ..state
     }

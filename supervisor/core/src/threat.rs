@@ -58,7 +58,7 @@ pub struct Threat {
     pub known: bool,
     /// Level of the most severe *valid* obstacle (MIT-1 to MIT-3, MIT-6): may oblige.
     pub level: Level,
-    /// Whether a valid obstacle in the corridor is closing (MIT-4).
+    /// Whether an object in the corridor is closing (MIT-4).
     pub closing: Closing,
     /// Deceleration that stops the closing before the margin, v²/(2·(gap − margin)), rounded up (MIT-6).
     pub required: DecelMs2Q11,

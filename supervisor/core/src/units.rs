@@ -132,6 +132,11 @@ impl Timer {
     pub const fn reached(self, span: Millis) -> bool {
         self.0 > span.0
     }
+    /// Whether it runs and will have held for at least `span` in the cycle that adds `elapsed`.
+    #[must_use]
+    pub fn due(self, span: Millis, elapsed: Millis) -> bool {
+        self.is_running() && self.run(elapsed).reached(span)
+    }
     /// Whether it runs at all.
     #[must_use]
     pub const fn is_running(self) -> bool {
@@ -141,6 +146,32 @@ impl Timer {
     #[must_use]
     pub const fn elapsed(self) -> Millis {
         Millis(self.0.saturating_sub(1))
+    }
+}
+
+/// What a rate leaves over below one unit, in thousandths: slow rates and short cycles lose nothing.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(kani, derive(kani::Arbitrary))]
+pub struct Rest(u16);
+
+impl Rest {
+    /// Nothing left over.
+    pub const ZERO: Self = Self(0);
+
+    /// Whole units that `per_second` gives in `elapsed`, and what is left over.
+    #[must_use]
+    pub fn portion(self, per_second: u16, elapsed: Millis) -> (u32, Self) {
+        let thousandths = u32::from(per_second).saturating_mul(elapsed.0).saturating_add(u32::from(self.0));
+        (thousandths / 1000, Self(u16::try_from(thousandths % 1000).unwrap_or(0)))
+    }
+}
+
+impl Word for Rest {
+    fn to_word(self) -> u32 {
+        u32::from(self.0)
+    }
+    fn from_word(word: u32) -> Option<Self> {
+        u16::try_from(word).ok().map(Self)
     }
 }
 

@@ -185,8 +185,9 @@ pub fn vet_drive(envelope: &Envelope, given: &Outputs, command: Command<DriveTor
     most.lower_if(!steady, Percent::ZERO, Reason::GearDirection);
 
     let (torque, pass, cause) = limited(wanted.torque, most);
-    // A sender that may not have torque does not keep its active flag either.
-    let refused = !by_driver && torque == Percent::ZERO;
+    // A sender that may not have torque does not keep its active flag either; no torque in a granted mode is coasting.
+    let coasts = wanted.torque == Percent::ZERO && envelope.automated.is_ok();
+    let refused = !by_driver && torque == Percent::ZERO && !coasts;
     let out = if refused { DriveTorque::NEUTRAL } else { DriveTorque { torque, ..wanted } };
     let blocked = refused.then(|| Verdict::above(Kind::Block, most.reason, wanted.torque.wide(), most.most.wide()));
     (out, judge(usable, &out, &DriveTorque::NEUTRAL, pass, blocked.filter(|_| usable.is_ok()).or(cause)))
@@ -253,10 +254,14 @@ pub fn vet_steering(envelope: &Envelope, command: Command<Steering>) -> (Steerin
         };
         let idle = !out.enable && out.overlay == TorqueNmQ10::ZERO;
         // Nothing acts and nothing is asked for: the command's idle fields are of no effect and pass.
-        if idle && !wanted.enable && wanted.weight == Percent::ZERO && wanted.overlay == TorqueNmQ10::ZERO {
+        let in_range = wanted.angle.raw().unsigned_abs() <= bound.range.raw().unsigned_abs()
+            && wanted.rate <= bound.rate
+            && wanted.bar_limit <= bound.bar;
+        let asks_nothing = !wanted.enable && wanted.weight == Percent::ZERO && wanted.overlay == TorqueNmQ10::ZERO;
+        if idle && asks_nothing && in_range {
             return (wanted, judge(usable, &wanted, &Steering::NEUTRAL, Verdict::PASS, None));
         }
-        let out = if idle { Steering { angle: out.angle, ..Steering::NEUTRAL } } else { out };
+        let out = if idle { Steering::NEUTRAL } else { out };
         let kind = if idle { Kind::Block } else { Kind::Substitute };
         let cause = Verdict::fact(kind, reason, u8::from(wanted.enable), u8::from(out.enable));
         return (
@@ -274,20 +279,21 @@ pub fn vet_steering(envelope: &Envelope, command: Command<Steering>) -> (Steerin
         bar_limit: wanted.bar_limit.min(bound.bar),
     };
     let angle_limit = if wanted.angle < bound.angle_least { bound.angle_least } else { bound.angle_most };
-    let checks = [
-        (out.angle != wanted.angle, Reason::SteeringAngle, wanted.angle.wide(), angle_limit.wide()),
-        (out.rate != wanted.rate, Reason::SteeringRate, wanted.rate.wide(), bound.rate.wide()),
-        (out.overlay != wanted.overlay, Reason::SteeringOverlay, wanted.overlay.wide(), out.overlay.wide()),
-        (out.weight != wanted.weight, Reason::SteeringWeight, wanted.weight.wide(), out.weight.wide()),
-        (out.bar_limit != wanted.bar_limit, Reason::BarTorque, wanted.bar_limit.wide(), bound.bar.wide()),
-    ];
-    let cause = checks.into_iter().find(|(differs, ..)| *differs).map(|(_, reason, value, limit)| Verdict {
-        kind: Kind::Limit,
-        reason,
-        value,
-        limit,
-        margin: value.abs_diff(limit).cast_signed().saturating_neg(),
-    });
+    let limit = |reason, value: i32, limit: i32| {
+        let margin = value.abs_diff(limit).cast_signed().saturating_neg();
+        Some(Verdict { kind: Kind::Limit, reason, value, limit, margin })
+    };
+    let cause = if out.angle != wanted.angle {
+        limit(Reason::SteeringAngle, wanted.angle.wide(), angle_limit.wide())
+    } else if out.rate != wanted.rate {
+        limit(Reason::SteeringRate, wanted.rate.wide(), bound.rate.wide())
+    } else if out.overlay != wanted.overlay {
+        limit(Reason::SteeringOverlay, wanted.overlay.wide(), out.overlay.wide())
+    } else if out.weight != wanted.weight {
+        limit(Reason::SteeringWeight, wanted.weight.wide(), out.weight.wide())
+    } else {
+        limit(Reason::BarTorque, wanted.bar_limit.wide(), bound.bar.wide())
+    };
     let pass = Verdict::above(Kind::Pass, Reason::Within, wanted.angle.wide(), bound.angle_most.wide());
     (out, judge(usable, &out, &Steering::NEUTRAL, pass, cause))
 }

@@ -10,7 +10,7 @@ use crate::scene::{CameraObject, Class, RadarObject};
 pub struct Assessment {
     /// Level obliged by a valid obstacle.
     pub level: Level,
-    /// A valid obstacle is closing.
+    /// An object in the corridor is closing.
     pub closing: bool,
     /// Deceleration a valid obstacle requires.
     pub required: DecelMs2Q11,
@@ -109,7 +109,8 @@ fn inside(offset: OffsetCm, half: OffsetCm) -> bool {
 
 /// What a single sensor's object may permit: (mitigation of any level, the full cap).
 fn permits(distance: DistanceCm, closing: ClosingCmS, required: DecelMs2Q11, config: &Config) -> (bool, bool) {
-    let severe = required >= config.severe_decel;
+    // MIT-8: no gap at all is most severe.
+    let severe = required >= config.severe_decel || distance == DistanceCm::ZERO;
     let mitigable = severe || reached_or_equal(distance, closing, config.mitigable_ttc);
     (mitigable, severe || reached_or_equal(distance, closing, config.emergency_ttc))
 }
@@ -137,10 +138,11 @@ pub fn radar_object(object: &RadarObject, config: &Config) -> Assessment {
         && ((required >= config.severe_decel && level == Level::None) || (level == Level::Three && required < mild));
     Assessment {
         level,
-        closing: valid && closing > ClosingCmS::ZERO,
+        // MIT-4: an object that is not certain begins no level, but is not known to be gone either.
+        closing: in_corridor && closing > ClosingCmS::ZERO,
         required: if valid { required } else { DecelMs2Q11::ZERO },
-        mitigable: in_corridor && mitigable,
-        emergency: in_corridor && emergency,
+        mitigable,
+        emergency,
         forward_begins: forward && reached(distance, closing, forward_on),
         forward_holds: forward && reached_or_equal(distance, closing, forward_off),
         pedestrian_begins: pedestrian && reached(distance, closing, pedestrian_on),

@@ -1,0 +1,368 @@
+//! The properties, one function each, named by the requirement. `true` means that the requirement holds.
+
+use supervisor_core::{
+    BrakeMode, Channel, Clock, Command, Commands, Config, Contact, ContactorRequest, DecelMs2Q11, DrivingMode,
+    Envelope, EpbRequest, EpbState, Gear, GearRequest, HighVoltage, Inputs, Key, LastKey, Millis, Origin, Outputs,
+    Parking, PedalChain, Percent, Priority, Record, Restart, Seat, SeatState, Stage, State, Timer, Verdicts,
+};
+
+/// One cycle, seen from outside.
+#[derive(Clone, Copy, Debug)]
+pub struct Cycle<'a> {
+    /// State before.
+    pub old: &'a State,
+    /// State after `decide`.
+    pub new: &'a State,
+    /// Time given to the step.
+    pub now: Millis,
+    /// Inputs.
+    pub inputs: &'a Inputs,
+    /// Envelope.
+    pub envelope: &'a Envelope,
+    /// Outputs.
+    pub outputs: &'a Outputs,
+    /// Configuration.
+    pub config: &'a Config,
+}
+
+/// `a` ⇒ `b`.
+const fn implies(a: bool, b: bool) -> bool {
+    !a || b
+}
+
+fn sits(inputs: &Inputs) -> bool {
+    inputs.seat.iter().all(|sensor| sensor.is(Seat::Occupied))
+}
+
+impl Cycle<'_> {
+    fn speeds(&self) -> Option<(u16, u16)> {
+        let (wheel, motor) = (self.inputs.wheel_speed.known()?, self.inputs.motor_speed.known()?);
+        Some((wheel.raw().min(motor.raw()), wheel.raw().max(motor.raw())))
+    }
+    fn standstill(&self) -> bool {
+        self.speeds().is_some_and(|(_, high)| high < self.config.standstill_speed.raw())
+    }
+    fn loads_stopped(&self) -> bool {
+        let bound = self.config.stopped_current.raw().unsigned_abs();
+        self.inputs.drive_stopped.is(true)
+            && self.inputs.auxiliaries_stopped.is(true)
+            && self.inputs.hv_current.known().is_some_and(|current| current.raw().unsigned_abs() <= bound)
+    }
+    fn torque_stopped(&self) -> bool {
+        self.inputs.executed_torque.known().is_some_and(|torque| torque <= self.config.stopped_torque)
+    }
+    fn releases(&self) -> bool {
+        self.outputs.epb.request == EpbRequest::Release
+    }
+
+    /// SEAT-5a: the EPB is never released while the seat is not confirmed occupied, in any state, whoever asks.
+    #[must_use]
+    pub fn seat_5a_no_release_without_confirmed_seat(&self) -> bool {
+        implies(self.releases(), sits(self.inputs) && self.new.seat.occupied.reached(self.config.seat_confirm))
+    }
+
+    /// SEAT-5: what *confirmed* rests on: the timer counts no more than the time that passed with both sensors known
+    /// occupied in this cycle and the one before, and is lost at once on anything else.
+    #[must_use]
+    pub fn seat_5_confirmation_counts_real_time(&self) -> bool {
+        let (old, new) = (self.old.seat.occupied, self.new.seat.occupied);
+        let passed = self.now.raw().wrapping_sub(self.old.clock.last.raw());
+        let counted = new.elapsed().raw().saturating_sub(old.elapsed().raw());
+        implies(!sits(self.inputs), new == Timer::STOPPED)
+            && implies(!old.is_running(), new.elapsed() == Millis::ZERO)
+            && implies(self.old.clock.started, counted <= passed)
+            && implies(!self.old.clock.started, counted == 0)
+    }
+
+    /// SEAT-5b, SEAT-5c: after parked by leave, release also needs K1 and K4 closed, a gear other than N, and the
+    /// accelerator pressed after it was seen released under those conditions.
+    #[must_use]
+    pub fn seat_5_release_after_leave_needs_all(&self) -> bool {
+        let inputs = self.inputs;
+        let ready = inputs.k1.is(Contact::Closed)
+            && inputs.k4.is(Contact::Closed)
+            && matches!(inputs.gear.known(), Some(Gear::Drive | Gear::Reverse | Gear::Park));
+        let pressed = inputs
+            .accelerator
+            .iter()
+            .all(|track| track.known().is_some_and(|travel| travel > self.config.pedal_pressed));
+        let before = self.old.parking.pedal != PedalChain::Waiting;
+        implies(self.releases() && self.old.parking.by_leave, ready && pressed && before)
+    }
+
+    /// SEAT-5c: the chain says *released* only in a cycle in which the accelerator is known released.
+    #[must_use]
+    pub fn seat_5_pedal_chain_is_honest(&self) -> bool {
+        let released = self
+            .inputs
+            .accelerator
+            .iter()
+            .any(|track| track.known().is_some_and(|travel| travel <= self.config.pedal_pressed));
+        let (old, new) = (self.old.parking.pedal, self.new.parking.pedal);
+        implies(new == PedalChain::Released, released)
+            && implies(new == PedalChain::PressedAnew, old != PedalChain::Waiting)
+    }
+
+    /// SEAT-4: leave below 1.5 km/h with the brake not confirmed: apply, and the latch is set.
+    #[must_use]
+    pub fn seat_4_apply_in_leave(&self) -> bool {
+        let Some((low, high)) = self.speeds() else { return true };
+        let agree = u32::from(high - low) <= u32::from(self.config.speed_agree.raw());
+        let slow = low < self.config.epb_speed.raw() && agree;
+        let due = self.new.seat.leave && slow;
+        let applied = self.inputs.epb.is(EpbState::Applied);
+        implies(due, self.new.parking.by_leave)
+            && implies(due && !applied, self.outputs.epb.request == EpbRequest::Apply)
+    }
+
+    /// SEAT-4: the latch is cleared by nothing in `decide`; only [`record`](supervisor_core::record()) of a release clears it.
+    #[must_use]
+    pub fn seat_4_latch_holds(&self) -> bool {
+        implies(self.old.parking.by_leave, self.new.parking.by_leave)
+    }
+
+    /// SEAT-7: K1 is never commanded open before K4 is confirmed open and drive and auxiliaries have stopped.
+    #[must_use]
+    pub fn seat_7_k1_after_k4(&self) -> bool {
+        let opens = self.outputs.contactors.k1 == ContactorRequest::Open;
+        implies(opens, self.inputs.k4.is(Contact::Open) && self.loads_stopped() && self.standstill())
+    }
+
+    /// SEAT-7, HV-1: K4 opens only at standstill with no drive torque, executed or sent.
+    #[must_use]
+    pub fn hv_1_k4_opens_without_load(&self) -> bool {
+        let opens = self.outputs.contactors.k4 == ContactorRequest::Open;
+        implies(opens, self.standstill() && self.torque_stopped() && self.outputs.drive.torque == Percent::ZERO)
+    }
+
+    /// SEAT-7: ten minutes parked by leave with the guards kept: K4 is commanded open, whatever the controller says.
+    #[must_use]
+    pub fn seat_7_shutdown_happens(&self) -> bool {
+        let due = self.old.high_voltage.stage == Stage::Up
+            && self.new.high_voltage.parked.reached(self.config.shutdown_after)
+            && !(self.inputs.k4.is(Contact::Open) && self.inputs.k1.is(Contact::Open))
+            && self.standstill()
+            && self.inputs.epb.is(EpbState::Applied)
+            && self.torque_stopped()
+            && !self.new.is_safe_state();
+        implies(due, self.outputs.contactors.k4 == ContactorRequest::Open)
+    }
+
+    /// SEAT-7: in the second stage K1 is commanded open as soon as K4 and the loads are confirmed.
+    #[must_use]
+    pub fn seat_7_k1_follows(&self) -> bool {
+        let due = self.new.high_voltage.stage == Stage::OpeningK1
+            && self.inputs.k4.is(Contact::Open)
+            && self.loads_stopped()
+            && self.standstill()
+            && !self.new.is_safe_state();
+        implies(due, self.outputs.contactors.k1 == ContactorRequest::Open)
+    }
+
+    /// SEAT-7: once K4 is commanded the sequence is committed: it ends in *down* only.
+    #[must_use]
+    pub fn seat_7_committed(&self) -> bool {
+        let (old, new) = (self.old.high_voltage.stage, self.new.high_voltage.stage);
+        match old {
+            Stage::Up => matches!(new, Stage::Up | Stage::OpeningK4),
+            Stage::OpeningK4 => matches!(new, Stage::OpeningK4 | Stage::OpeningK1),
+            Stage::OpeningK1 => matches!(new, Stage::OpeningK1 | Stage::Down),
+            Stage::Down => {
+                matches!(new, Stage::Down | Stage::Up)
+                    && implies(new == Stage::Up, self.new.high_voltage.restart == Restart::Started)
+            }
+        }
+    }
+
+    /// SEAT-7, SEAT-11: the ten minutes count no more than real time, and only with the brake known applied.
+    #[must_use]
+    pub fn seat_11_ten_minutes_are_real(&self) -> bool {
+        let (old, new) = (self.old.high_voltage.parked, self.new.high_voltage.parked);
+        let passed = self.now.raw().wrapping_sub(self.old.clock.last.raw());
+        let counted = new.elapsed().raw().saturating_sub(old.elapsed().raw());
+        implies(counted > 0, self.inputs.epb.is(EpbState::Applied) && counted <= passed && !sits(self.inputs))
+            && implies(self.inputs.epb.is(EpbState::Released), new == Timer::STOPPED)
+            && implies(!self.new.parking.by_leave, new == Timer::STOPPED)
+    }
+
+    /// SEAT-8, HV-1: a contactor closes only after the driver's restart, K1 before K4.
+    #[must_use]
+    pub fn seat_8_close_needs_restart(&self) -> bool {
+        let closes = |request| request == ContactorRequest::Close;
+        let out = self.outputs.contactors;
+        let restarted = self.new.high_voltage.restart == Restart::Started && sits(self.inputs);
+        implies(closes(out.k1) || closes(out.k4), restarted)
+            && implies(closes(out.k4), self.inputs.k1.is(Contact::Closed))
+            && implies(closes(out.k1), self.inputs.k4.is(Contact::Open))
+    }
+
+    /// SEAT-8: the restart goes Idle → OffSeen → Started, each step on its own evidence, and is lost with the seat.
+    #[must_use]
+    pub fn seat_8_restart_in_order(&self) -> bool {
+        let (old, new) = (self.old.high_voltage.restart, self.new.high_voltage.restart);
+        let confirmed = sits(self.inputs) && self.new.seat.occupied.reached(self.config.seat_confirm);
+        let off = self.inputs.key.is(Key::Off);
+        let clean = self.old.boot.pending == supervisor_core::Pending::Clean;
+        let edge =
+            self.inputs.key.is(Key::Start) && !matches!(self.old.high_voltage.key, LastKey::Start | LastKey::None);
+        implies(new != Restart::Idle, confirmed)
+            && implies(new == Restart::OffSeen && old != Restart::OffSeen, off || clean)
+            && implies(new == Restart::Started && old != Restart::Started, old == Restart::OffSeen && edge)
+    }
+
+    /// SEAT-2, MIT-5, SELF-5: no drive torque while leave, a mitigation latch or the safe state runs.
+    #[must_use]
+    pub fn no_torque_under_obligation(&self) -> bool {
+        let obliged = self.new.seat.leave || self.new.mitigation.running() || self.new.is_safe_state();
+        implies(obliged, self.outputs.drive.torque == Percent::ZERO)
+    }
+
+    /// SEAT-6: parked by leave, confirmed and nobody there: neutral goes out; and no other gear ever with an empty seat
+    /// at rest.
+    #[must_use]
+    pub fn seat_6_neutral(&self) -> bool {
+        let confirmed = self.new.seat.occupied.reached(self.config.seat_confirm);
+        let parked = self.new.parking.by_leave
+            && self.inputs.epb.is(EpbState::Applied)
+            && !confirmed
+            && !self.new.is_safe_state();
+        let at_rest = self.inputs.epb.is(EpbState::Applied)
+            || self.speeds().is_some_and(|(low, _)| low < self.config.epb_speed.raw());
+        implies(parked, self.outputs.gear == GearRequest::Neutral)
+            && implies(
+                at_rest && !confirmed,
+                matches!(self.outputs.gear, GearRequest::Hold | GearRequest::Neutral)
+                    && self.outputs.drive.torque == Percent::ZERO,
+            )
+    }
+
+    /// SEAT-3, MIT-1 to MIT-3: the service brake is never below the demand of leave and of the set latches.
+    #[must_use]
+    pub fn brake_never_below_obligation(&self) -> bool {
+        let [one, two, three] = self.config.level_decel.0;
+        let mitigation = &self.new.mitigation;
+        let out = &self.outputs.brake;
+        let demand = |set, decel: DecelMs2Q11| implies(set, out.total >= decel);
+        let obliged = self.new.seat.leave && self.new.brake.leave > DecelMs2Q11::ZERO || mitigation.running();
+        demand(mitigation.one, one)
+            && demand(mitigation.two, two)
+            && demand(mitigation.three, three)
+            && demand(self.new.seat.leave, self.new.brake.leave)
+            && implies(obliged, out.mode == BrakeMode::Maximum && out.priority == Priority::Highest)
+    }
+
+    /// SELF-5: the safe state. Torque 0, no release, apply when slow, gear and contactors hold, flashers on.
+    #[must_use]
+    pub fn self_5_safe_state(&self) -> bool {
+        let out = self.outputs;
+        implies(
+            self.new.is_safe_state(),
+            out.drive.torque == Percent::ZERO
+                && out.epb.request != EpbRequest::Release
+                && out.gear == GearRequest::Hold
+                && out.contactors == supervisor_core::Contactors::NEUTRAL
+                && out.warnings.hazard_flashers
+                && out.mode == DrivingMode::Manual,
+        )
+    }
+
+    /// SELF-5: latched faults stay.
+    #[must_use]
+    pub fn self_5_latched(&self) -> bool {
+        self.new.latched.contains(self.old.latched)
+    }
+}
+
+/// SELF-2 soundness: whatever the envelope obliges or forbids holds for the whole output vector.
+#[must_use]
+pub fn self_2_sound(envelope: &Envelope, outputs: &Outputs) -> bool {
+    let brake = &envelope.brake;
+    let drive = &outputs.drive;
+    let most =
+        if drive.origin == Origin::Driver { envelope.torque.driver.most } else { envelope.torque.automated.most };
+    let hill_hold = envelope.torque.hill_hold && drive.origin == Origin::Driver;
+    let steering = &outputs.steering;
+    let within = steering.angle >= envelope.steering.angle_least && steering.angle <= envelope.steering.angle_most;
+    let permission = |request, open: bool, close: bool| match request {
+        ContactorRequest::Hold => true,
+        ContactorRequest::Open => open,
+        ContactorRequest::Close => close,
+    };
+    let epb = match outputs.epb.request {
+        EpbRequest::None => envelope.epb.obliged.is_none(),
+        EpbRequest::Apply => envelope.epb.apply.is_ok(),
+        EpbRequest::Release => envelope.epb.release.is_ok() && envelope.epb.obliged.is_none(),
+    };
+    let gear = match outputs.gear {
+        GearRequest::Hold => !envelope.gear.neutral,
+        GearRequest::Neutral => envelope.gear.to_neutral.is_ok(),
+        GearRequest::Drive => envelope.gear.drive.is_ok() && !envelope.gear.neutral,
+        GearRequest::Reverse => envelope.gear.reverse.is_ok() && !envelope.gear.neutral,
+        GearRequest::Park => envelope.gear.park.is_ok() && !envelope.gear.neutral,
+    };
+    let warnings = &envelope.warnings;
+    outputs.brake.total >= brake.floor.most
+        && outputs.brake.total <= brake.cap.most
+        && outputs.brake.electric <= outputs.brake.total
+        && outputs.brake.electric <= brake.electric
+        && implies(outputs.retarder.torque > Percent::ZERO, brake.total(outputs) <= brake.cap.most)
+        && outputs.retarder.torque <= brake.retarder.most
+        && drive.torque <= most
+        && implies(drive.torque > Percent::ZERO && !hill_hold, brake.total(outputs) == DecelMs2Q11::ZERO)
+        && implies(drive.torque > Percent::ZERO && drive.origin != Origin::Driver, drive.active)
+        && outputs.target_speed <= envelope.target_speed.most
+        && implies(steering.enable, within || steering.angle == envelope.steering.angle_neutral)
+        && implies(
+            steering.enable && envelope.steering.enable.is_err(),
+            steering.weight == envelope.steering.weight_least,
+        )
+        && implies(
+            steering.enable,
+            steering.overlay.raw().unsigned_abs() <= envelope.steering.overlay.raw().unsigned_abs(),
+        )
+        && implies(steering.enable, steering.weight <= envelope.steering.weight_most)
+        && permission(outputs.contactors.k4, envelope.k4.open.is_ok(), envelope.k4.close.is_ok())
+        && permission(outputs.contactors.k1, envelope.k1.open.is_ok(), envelope.k1.close.is_ok())
+        && epb
+        && gear
+        && implies(warnings.seat_leave, outputs.warnings.seat_leave)
+        && implies(warnings.hazard_flashers, outputs.warnings.hazard_flashers)
+        && implies(warnings.forward_collision, outputs.warnings.forward_collision)
+        && implies(warnings.pedestrian, outputs.warnings.pedestrian)
+        && implies(outputs.mode == DrivingMode::Automated, envelope.automated.is_ok())
+}
+
+/// SELF-2 transparency: a verdict says *pass* exactly when a usable command went out unchanged.
+#[must_use]
+pub fn self_2_transparent(envelope: &Envelope, commands: &Commands, outputs: &Outputs, verdicts: &Verdicts) -> bool {
+    let Envelope { timeouts, .. } = envelope;
+    let same = |channel, unchanged| verdicts.of(channel).passed() == unchanged;
+    fn went<T: PartialEq + Copy>(command: Command<T>, timeout: Millis, out: T) -> bool {
+        command.usable(timeout).is_ok_and(|value| value == out)
+    }
+    same(Channel::DriveTorque, went(commands.drive, timeouts.ms50, outputs.drive))
+        && same(Channel::TargetSpeed, went(commands.target_speed, timeouts.ms50, outputs.target_speed))
+        && same(Channel::ServiceBrake, went(commands.brake, timeouts.ms50, outputs.brake))
+        && same(Channel::Retarder, went(commands.retarder, timeouts.ms100, outputs.retarder))
+        && same(Channel::Gear, went(commands.gear, timeouts.ms100, outputs.gear))
+        && same(Channel::ParkingBrake, went(commands.epb, timeouts.ms200, outputs.epb))
+        && same(Channel::Steering, went(commands.steering, timeouts.ms50, outputs.steering))
+        && same(Channel::Contactors, went(commands.contactors, timeouts.ms100, outputs.contactors))
+        && same(Channel::Auxiliaries, went(commands.auxiliaries, timeouts.ms200, outputs.auxiliaries))
+        && same(Channel::Warnings, went(commands.warnings, timeouts.ms200, outputs.warnings))
+        && same(Channel::Body, went(commands.body, timeouts.ms200, outputs.body))
+        && same(Channel::Mode, went(commands.mode, timeouts.ms200, outputs.mode))
+}
+
+/// SELF-9: what boot may leave behind: nothing confirmed, no restart, and every record but *none* parks by leave.
+#[must_use]
+pub fn self_9_boot(state: &State, record: Option<Record>) -> bool {
+    let State { seat: SeatState { occupied, .. }, parking: Parking { by_leave, pedal, .. }, .. } = *state;
+    let State { high_voltage: HighVoltage { restart, parked, .. }, clock: Clock { started, .. }, .. } = *state;
+    occupied == Timer::STOPPED
+        && !started
+        && pedal == PedalChain::Waiting
+        && restart == Restart::Idle
+        && parked == Timer::STOPPED
+        && by_leave == matches!(record, Some(Record::Leave | Record::HighVoltageDown))
+}
