@@ -1,6 +1,7 @@
 //! The supervisor itself: state at rest, boot, safe state.
 use supervisor_core::{
-    Commands, Inputs, Millis, Record, ResetCause, STATE_WORDS, Sealed, State, StateImage, Threat, record, step,
+    Commands, EpbRequest, Inputs, Millis, Percent, Record, ResetCause, STATE_WORDS, Sealed, State, StateImage, Threat,
+    record, step, vet,
 };
 
 use super::Any;
@@ -34,20 +35,26 @@ fn self_9_boot_leaves_nothing_permitted() {
     kani::cover!(state.parking.by_leave, "a record parks by leave");
 }
 
-/// SELF-5: the safe state, and the obligations that no command weakens.
+/// SELF-5, SEAT-2, SEAT-3, SEAT-6, MIT-5: the safe state, and the obligations that no command weakens.
 #[kani::proof]
 #[kani::unwind(17)]
 fn self_5_safe_state_and_obligations() {
     let any = Any::new();
-    let cycle = any.cycle();
+    let commands: Commands = kani::any();
+    let (outputs, _) = vet(&any.decided.envelope, &commands);
+    let cycle = any.cycle(&outputs);
     assert!(cycle.self_5_safe_state());
     assert!(cycle.self_5_latched());
     assert!(cycle.no_torque_under_obligation());
     assert!(cycle.seat_6_neutral());
     assert!(cycle.brake_never_below_obligation());
-    let next = record(&any.decided, &any.outputs, &any.commands, &any.config);
+    let next = record(&any.decided, &outputs, &commands, &any.config);
+    assert!(
+        next.parking.by_leave == (any.decided.state.parking.by_leave && outputs.epb.request != EpbRequest::Release)
+    );
     kani::cover!(next.is_safe_state(), "the safe state");
     kani::cover!(any.decided.state.mitigation.three && !next.is_safe_state(), "level 3");
+    kani::cover!(outputs.drive.torque > Percent::ZERO, "torque passes");
 }
 
 /// SELF-1: the whole shipped step, any image bytes: total.

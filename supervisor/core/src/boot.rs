@@ -77,9 +77,8 @@ impl Boot {
         let settled = evidence.seat == SeatView::Vacant || wait.reached(config.boot_settle);
         let done = Self { pending: Pending::Done, wait: Timer::STOPPED };
         match (self.pending, seat.confirmed(config)) {
-            (Pending::Done, _) => (done, Verdict::Nothing),
             (Pending::Clean, true) => (done, Verdict::OffSeen),
-            (Pending::Other, true) => (done, Verdict::Nothing),
+            (Pending::Done, _) | (Pending::Other, true) => (done, Verdict::Nothing),
             (Pending::Clean | Pending::Other, false) if settled && inputs.epb.is(EpbState::Applied) => {
                 (done, Verdict::ParkedByLeave)
             }

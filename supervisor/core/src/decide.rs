@@ -13,7 +13,7 @@ use crate::parking::Parking;
 use crate::state::State;
 use crate::threat::Threat;
 use crate::units::Millis;
-use crate::verdict::{ExitReason, Faults, Reason};
+use crate::verdict::{Faults, Reason};
 
 pub(crate) use crate::clock::Ticks;
 
@@ -62,7 +62,7 @@ pub fn decide(state: &State, now: Millis, inputs: &Inputs, threat: &Threat, conf
         takeover: steering.taken_over(config),
         brake_lost: state.brake.lost.reached(config.brake_hold),
     };
-    let drive = state.drive.advance(must, threat, &evidence, inputs, config);
+    let drive = state.drive.advance(must, threat, &evidence, inputs, ticks, config);
     let brake = state.brake.advance(seat.leave, &evidence, inputs, config);
     let gear = state.gear.advance(&evidence, inputs);
     let next =
@@ -73,7 +73,6 @@ pub fn decide(state: &State, now: Millis, inputs: &Inputs, threat: &Threat, conf
     Decided { state: next, envelope, faults, ticks }
 }
 
-#[expect(clippy::too_many_arguments, reason = "the one place where every machine meets")]
 fn envelope(
     next: &State,
     must: Obligations,
@@ -106,10 +105,10 @@ fn envelope(
             pedestrian: mitigation.pedestrian,
             seat_leave: seat.leave,
             hazard_flashers: seat.leave || must.safe_state,
-            fault_lamp: faults != Faults::NONE,
+            fault_lamp: faults.without(Faults::HINTS) != Faults::NONE,
             notice_lamp: next.steering.barred
                 || (steering.enable.is_err() && next.steering.acts())
-                || !matches!(drive.exit, ExitReason::None | ExitReason::Requested),
+                || drive.notices(config),
         },
         lamp_decel: config.lamp_decel,
         lamps_delayed: brake.lamps > Millis::ZERO,
@@ -128,7 +127,8 @@ fn faults(next: &State, threat: &Threat, evidence: &Evidence, ticks: Ticks, conf
         .when(next.high_voltage.k4_overdue(config), Faults::K4_OVERDUE)
         .when(next.high_voltage.k1_overdue(config), Faults::K1_OVERDUE)
         .when(!threat.known, Faults::PERCEPTION_UNKNOWN)
-        .when(threat.disagreement, Faults::TTC_DISAGREEMENT)
+        // Nothing is obliged below this speed, so nothing disagrees.
+        .when(threat.disagreement && !evidence.obliged_below(config.level_least_speed), Faults::TTC_DISAGREEMENT)
         .when(evidence.accelerator.is_none(), Faults::ACCELERATOR_UNKNOWN)
         .when(evidence.brake_pedal == BrakePedal::Unknown, Faults::BRAKE_PEDAL_UNKNOWN)
         .when(next.steering.taken_over(config), Faults::TAKEOVER)

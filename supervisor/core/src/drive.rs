@@ -30,6 +30,8 @@ retained! {
         mode: Mode = Mode::Manual,
         /// Why the last automated mode ended.
         exit: ExitReason = ExitReason::None,
+        /// Time since the last automated mode ended for a reason that the driver did not give.
+        notice: Timer = Timer::STOPPED,
         /// Last output torque.
         torque: Percent = Percent::ZERO,
         /// Last torque that ADAS or EPBi asked for, up to our bound: the driver's accelerator is compared with it.
@@ -81,12 +83,18 @@ impl Obligations {
 }
 
 impl Drive {
+    /// MODE-1: a mode that ended by itself is noticed for a while.
+    pub(crate) const fn notices(&self, config: &Config) -> bool {
+        self.notice.is_running() && !self.notice.reached(config.notice_time)
+    }
+
     pub(crate) fn advance(
         self,
         must: Obligations,
         threat: &Threat,
         evidence: &Evidence,
         inputs: &Inputs,
+        ticks: Ticks,
         config: &Config,
     ) -> Self {
         let released = evidence.accelerator.is_some_and(|travel| travel <= config.pedal_pressed);
@@ -100,8 +108,11 @@ impl Drive {
             }
         };
         let manual = mode == Mode::Manual;
+        let given =
+            matches!(exit, ExitReason::None | ExitReason::Requested | ExitReason::BrakePedal | ExitReason::Switch);
+        let notice = self.notice.run_while(manual && !given, ticks.permission);
         let armed = manual && (inputs.driver_set.is(false) || (self.armed && self.mode == Mode::Manual));
-        Self { mode, exit, release_needed, armed, ..self }
+        Self { mode, exit, notice, armed, release_needed, ..self }
     }
 
     /// TRQ-4: whether the driver's accelerator overrides.
@@ -210,7 +221,8 @@ impl Drive {
 
         let mut automated = common;
         automated.lower_if(evidence.brake_pedal != BrakePedal::Released, Percent::ZERO, Reason::BrakePedal);
-        automated.lower_if(self.mode == Mode::Suspended, Percent::ZERO, Reason::DriverOverride);
+        // TRQ-4: the pedal governs, whoever asks.
+        automated.lower_if(self.mode == Mode::Suspended, driver.most, Reason::DriverOverride);
         automated.lower_if(self.mode == Mode::Manual || granted.is_err(), Percent::ZERO, Reason::ModeNotGranted);
         automated.lower_if(!threat.known, Percent::ZERO, Reason::PerceptionUnknown);
         automated.lower(config.automated_torque, Reason::AccelerationBound);
@@ -248,7 +260,7 @@ fn pedal_map(travel: Pedal250, config: &Config) -> Percent {
     let point =
         |index: usize| config.pedal_map.0.get(index).or(config.pedal_map.0.last()).map_or(0, |torque| torque.raw());
     let (here, next) = (point(index), point(index.saturating_add(1)));
-    let rise = u16::from(next.saturating_sub(here)).saturating_mul(rest) / u16::from(STEP);
+    let rise = u16::from(next.saturating_sub(here)).saturating_mul(rest).div_euclid(25);
     let torque = here.saturating_add(u8::try_from(rise).unwrap_or(u8::MAX));
     let tolerance = if travel > config.pedal_pressed { config.pedal_tolerance.raw() } else { 0 };
     Percent::new(torque.saturating_add(tolerance).min(100))

@@ -19,8 +19,7 @@
     clippy::float_arithmetic,
     clippy::indexing_slicing,
     clippy::string_slice,
-    clippy::unreachable,
-    clippy::integer_division_remainder_used
+    clippy::unreachable
 )]
 
 #[cfg(kani)]

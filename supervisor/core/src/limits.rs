@@ -267,6 +267,9 @@ limits! {
     /// Greatest target speed.
     speed_limit: SpeedKmhQ8 = [15360], 2560..=25600, "1/256 km/h", "S3 §2.3 (60 km/h)", "SPD-1";
 
+    /// A mode that ended for a reason that the driver did not give is noticed this long.
+    notice_time: Millis = [5000], 1000..=30000, "ms", "own", "MODE-1";
+
     // Steering (S4 6.3)
     /// Steering-wheel angles lie within this, either way.
     steering_range: AngleDeciDeg = [7200], 7200..=7200, "0.1°", "S4 table 4 (±720°)", "STR-1";

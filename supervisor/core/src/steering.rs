@@ -72,7 +72,7 @@ impl SteeringState {
         let acted = |rest| if self.acts() { rest } else { Rest::ZERO };
         let (angle_rest, fade_rest) = (acted(self.angle_rest), acted(self.fade_rest));
         let barred = self.barred || takeover.reached(config.takeover_time);
-        Self { takeover, angle, barred, angle_rest, fade_rest, ..self }
+        Self { angle, angle_rest, fade_rest, takeover, barred, ..self }
     }
 
     /// After vetting. `asked` says whether a usable command asked for automatic steering.

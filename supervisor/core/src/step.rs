@@ -78,10 +78,10 @@ pub fn step(
     threat: &Threat,
     commands: &Commands,
 ) -> Decision {
-    let decoded = image.decode().unwrap_or_else(State::corrupted);
+    let retained = image.decode().unwrap_or_else(State::corrupted);
     let (state, config) = match sealed.intact() {
-        Some(config) => (decoded, config),
-        None => (State { latched: decoded.latched.with(Faults::CONFIGURATION), ..decoded }, &Config::DEFAULT),
+        Some(config) => (retained, config),
+        None => (State { latched: retained.latched.with(Faults::CONFIGURATION), ..retained }, &Config::DEFAULT),
     };
     let decided = decide(&state, now, inputs, threat, config);
     let (outputs, verdicts) = vet(&decided.envelope, commands);

@@ -287,6 +287,8 @@ faults! {
 impl Faults {
     /// No fault.
     pub const NONE: Self = Self(0);
+    /// What is reported without a fault lamp.
+    pub const HINTS: Self = Self::TTC_DISAGREEMENT.with(Self::TAKEOVER);
     /// The bits.
     #[must_use]
     pub const fn bits(self) -> u32 {
@@ -296,6 +298,11 @@ impl Faults {
     #[must_use]
     pub const fn with(self, other: Self) -> Self {
         Self(self.0 | other.0)
+    }
+    /// This set less another.
+    #[must_use]
+    pub const fn without(self, other: Self) -> Self {
+        Self(self.0 & !other.0)
     }
     /// Adds `fault` where `condition` holds.
     #[must_use]

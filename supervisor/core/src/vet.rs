@@ -100,13 +100,14 @@ pub fn vet_gear(envelope: &Envelope, command: Command<GearRequest>) -> (GearRequ
 pub fn vet_brake(envelope: &Envelope, command: Command<ServiceBrake>) -> (ServiceBrake, Verdict) {
     let bound = &envelope.brake;
     let usable = command.usable(envelope.timeouts.ms50);
-    let fallback = ServiceBrake {
+    let held = ServiceBrake {
         total: bound.fallback,
-        mode: if bound.fallback > DecelMs2Q11::ZERO { BrakeMode::Maximum } else { BrakeMode::Off },
+        mode: BrakeMode::Maximum,
         priority: Priority::Medium,
         ..ServiceBrake::NEUTRAL
     };
-    let wanted = value_or(usable, fallback);
+    let holds = bound.fallback > DecelMs2Q11::ZERO;
+    let wanted = value_or(usable, if holds { held } else { ServiceBrake::NEUTRAL });
     let mut out = wanted;
     let mut cause = None;
     // An obligation carries its own mode and priority: the driver's demand is the floor.
@@ -308,13 +309,13 @@ pub fn vet_contactors(envelope: &Envelope, given: &Outputs, command: Command<Con
         k4.obliged = false;
         k4.open = k4.open.and(Err(Reason::LoadsNotStopped));
     }
-    let (k4_out, k4_cause) = contactor(&k4, wanted.k4);
-    let (k1_out, k1_cause) = contactor(&envelope.k1, wanted.k1);
+    let (k4_out, k4_cause) = contactor(k4, wanted.k4);
+    let (k1_out, k1_cause) = contactor(envelope.k1, wanted.k1);
     let out = Contactors { k4: k4_out, k1: k1_out };
     (out, judge(usable, &out, &Contactors::NEUTRAL, Verdict::PASS, k4_cause.or(k1_cause)))
 }
 
-fn contactor(bound: &ContactorBound, wanted: ContactorRequest) -> (ContactorRequest, Option<Verdict>) {
+fn contactor(bound: ContactorBound, wanted: ContactorRequest) -> (ContactorRequest, Option<Verdict>) {
     let code = wanted.code();
     let permission = match wanted {
         _ if bound.obliged && wanted != ContactorRequest::Open => {
