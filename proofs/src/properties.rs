@@ -196,7 +196,7 @@ impl Cycle<'_> {
             && implies(closes(out.k1), self.inputs.k4.is(Contact::Open))
     }
 
-    /// SEAT-8: the restart goes Idle → OffSeen → Started, each step on its own evidence, and is lost with the seat.
+    /// SEAT-8: the restart goes *idle*, *Off seen*, *started*, each step on its own evidence, and is lost with the seat.
     #[must_use]
     pub fn seat_8_restart_in_order(&self) -> bool {
         let (old, new) = (self.old.high_voltage.restart, self.new.high_voltage.restart);
@@ -332,14 +332,16 @@ pub fn self_2_sound(envelope: &Envelope, outputs: &Outputs) -> bool {
         && implies(outputs.mode == DrivingMode::Automated, envelope.automated.is_ok())
 }
 
+/// Whether a usable command went out unchanged.
+fn went<T: PartialEq + Copy>(command: Command<T>, timeout: Millis, out: T) -> bool {
+    command.usable(timeout).is_ok_and(|value| value == out)
+}
+
 /// SELF-2 transparency: a verdict says *pass* exactly when a usable command went out unchanged.
 #[must_use]
 pub fn self_2_transparent(envelope: &Envelope, commands: &Commands, outputs: &Outputs, verdicts: &Verdicts) -> bool {
     let Envelope { timeouts, .. } = envelope;
     let same = |channel, unchanged| verdicts.of(channel).passed() == unchanged;
-    fn went<T: PartialEq + Copy>(command: Command<T>, timeout: Millis, out: T) -> bool {
-        command.usable(timeout).is_ok_and(|value| value == out)
-    }
     same(Channel::DriveTorque, went(commands.drive, timeouts.ms50, outputs.drive))
         && same(Channel::TargetSpeed, went(commands.target_speed, timeouts.ms50, outputs.target_speed))
         && same(Channel::ServiceBrake, went(commands.brake, timeouts.ms50, outputs.brake))

@@ -2,11 +2,10 @@
 
 use crate::clock::Ticks;
 use crate::evidence::{Evidence, SeatView};
-use crate::input::{EpbState, Inputs};
-use crate::limits::Config;
 use crate::seat::SeatState;
-use crate::units::Timer;
-use crate::word::{codes, retained};
+
+use supervisor_terms::word::{codes, retained};
+use supervisor_terms::{Config, EpbState, Inputs, Timer};
 
 codes! {
     /// Why the supervisor starts.

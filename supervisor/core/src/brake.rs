@@ -1,17 +1,15 @@
 //! How much must the bus brake, and how much may it? (SEAT-3, MIT, PHB-1, TRQ-3, TRQ-4, E2E-2, RET-1, VLC-2)
 
 use crate::clock::Ticks;
-use crate::command::Outputs;
 use crate::drive::Mode;
 use crate::envelope::{Bound, BrakeBound};
 use crate::evidence::{BrakePedal, Evidence, SeatView};
-use crate::input::{EpbState, Inputs};
-use crate::limits::Config;
 use crate::mitigation::Mitigation;
-use crate::threat::Threat;
-use crate::units::{DecelMs2Q11, Millis, Pedal250, Percent, SpeedKmhQ8, Timer};
-use crate::verdict::Reason;
-use crate::word::retained;
+
+use supervisor_terms::word::retained;
+use supervisor_terms::{
+    Config, DecelMs2Q11, EpbState, Inputs, Millis, Outputs, Pedal250, Percent, Reason, SpeedKmhQ8, Threat, Timer,
+};
 
 retained! {
     /// The brake machine.

@@ -1,8 +1,7 @@
 //! Time (SELF-3): an argument, u32 milliseconds that wrap.
 
-use crate::limits::Config;
-use crate::units::Millis;
-use crate::word::retained;
+use supervisor_terms::word::retained;
+use supervisor_terms::{Config, Millis};
 
 /// Clock faults in a row that lead to the safe state.
 const FAULTS_IN_A_ROW: u8 = 3;

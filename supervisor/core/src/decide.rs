@@ -2,18 +2,16 @@
 
 use crate::boot;
 use crate::brake::Situation;
-use crate::drive::{Drive, Mode, Obligations};
-use crate::envelope::{Envelope, Timeouts, WarningBound, permit};
+use crate::drive::Obligations;
+use crate::envelope::{Envelope, Timeouts, WarningBound};
 use crate::evidence::{BrakePedal, Evidence, SeatView};
-use crate::high_voltage::{Restart, Stage};
-use crate::input::Inputs;
-use crate::limits::Config;
+use crate::high_voltage::Stage;
 use crate::mitigation::Steered;
 use crate::parking::Parking;
 use crate::state::State;
-use crate::threat::Threat;
-use crate::units::Millis;
-use crate::verdict::{Faults, Reason};
+
+use supervisor_terms::word::permit;
+use supervisor_terms::{Config, Faults, Inputs, Millis, Reason, Threat};
 
 pub(crate) use crate::clock::Ticks;
 
@@ -29,7 +27,7 @@ pub struct Decided {
     pub(crate) ticks: Ticks,
 }
 
-/// Decides one cycle. Total: any state, time, inputs, threat; any valid configuration.
+/// Decides one cycle. Total: any state, time, inputs, threat; any configuration.
 #[must_use]
 pub fn decide(state: &State, now: Millis, inputs: &Inputs, threat: &Threat, config: &Config) -> Decided {
     let (clock, ticks) = state.clock.advance(now, config);
@@ -133,18 +131,4 @@ fn faults(next: &State, threat: &Threat, evidence: &Evidence, ticks: Ticks, conf
         .when(evidence.brake_pedal == BrakePedal::Unknown, Faults::BRAKE_PEDAL_UNKNOWN)
         .when(next.steering.taken_over(config), Faults::TAKEOVER)
         .when(next.brake.lost.is_running(), Faults::BRAKE_COMMAND_LOST)
-}
-
-impl Decided {
-    /// The mode after this cycle's decision.
-    #[must_use]
-    pub const fn mode(&self) -> Mode {
-        let Drive { mode, .. } = self.state.drive;
-        mode
-    }
-    /// How far the driver's restart has come.
-    #[must_use]
-    pub const fn restart(&self) -> Restart {
-        self.state.high_voltage.restart
-    }
 }

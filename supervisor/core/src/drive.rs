@@ -1,15 +1,14 @@
 //! Who drives, and how much torque is permitted? (S2; TRQ-1 to TRQ-6, SPD-1, MODE-1)
 
 use crate::clock::Ticks;
-use crate::command::{DriveTorque, DrivingMode, Origin, Outputs};
-use crate::envelope::{Bound, Permission, TorqueBound, permit};
+use crate::envelope::{Bound, Permission, TorqueBound};
 use crate::evidence::{BrakePedal, Evidence, percent};
-use crate::input::{AdsState, EpbState, Gear, Inputs};
-use crate::limits::Config;
-use crate::threat::Threat;
-use crate::units::{DecelMs2Q11, Millis, Pedal250, Percent, PercentPerS, Rest, SpeedKmhQ8, Timer};
-use crate::verdict::{ExitReason, Reason};
-use crate::word::{codes, retained};
+
+use supervisor_terms::word::{codes, permit, retained};
+use supervisor_terms::{
+    AdsState, Config, DecelMs2Q11, DriveTorque, DrivingMode, EpbState, ExitReason, Gear, Inputs, Millis, Origin,
+    Outputs, Pedal250, Percent, PercentPerS, Reason, Rest, SpeedKmhQ8, Threat, Timer,
+};
 
 codes! {
     /// The longitudinal mode as granted.

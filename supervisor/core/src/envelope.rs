@@ -2,10 +2,10 @@
 //!
 //! [`decide`](crate::decide) makes it, [`vet`](crate::vet()) applies it. It expires with the cycle.
 
-use crate::command::Body;
-use crate::input::Gear;
-use crate::units::{AngleDeciDeg, BarTorque50mNm, DecelMs2Q11, Millis, Percent, RateDeciDegS, SpeedKmhQ8, TorqueNmQ10};
-use crate::verdict::Reason;
+use supervisor_terms::{
+    AngleDeciDeg, BarTorque50mNm, Body, DecelMs2Q11, Gear, Millis, Percent, RateDeciDegS, Reason, SpeedKmhQ8,
+    TorqueNmQ10,
+};
 
 /// An upper bound and why it is no higher.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,14 +40,6 @@ impl<T: PartialOrd + Copy> Bound<T> {
 
 /// A permission, or why it is refused.
 pub type Permission = Result<(), Reason>;
-
-/// Permitted when every condition holds; refused with the reason beside the first that does not.
-macro_rules! permit {
-    ($($condition:expr => $reason:expr),+ $(,)?) => {
-        $(if !$condition { Err($reason) } else)+ { Ok(()) }
-    };
-}
-pub(crate) use permit;
 
 macro_rules! bounds {
     ($($(#[$doc:meta])* $name:ident { $($(#[$field_doc:meta])* $field:ident: $type:ty,)+ })*) => {$(

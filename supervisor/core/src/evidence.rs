@@ -1,8 +1,6 @@
 //! What the inputs of one cycle are evidence for. Unknown is evidence for nothing (rule 1).
 
-use crate::input::{Inputs, Seat, Signal};
-use crate::limits::Config;
-use crate::units::{AngleDeciDeg, Pedal250, Percent, SpeedKmhQ8};
+use supervisor_terms::{AngleDeciDeg, Config, Inputs, Pedal250, Percent, Seat, Signal, SpeedKmhQ8};
 
 /// The two speeds, where they agree (rule 6).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

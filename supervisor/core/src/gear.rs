@@ -1,13 +1,12 @@
 //! Which gear may be asked for? (GEAR-1, SEAT-6)
 
-use crate::envelope::{GearBound, Permission, permit};
+use crate::envelope::{GearBound, Permission};
 use crate::evidence::Evidence;
-use crate::input::{EpbState, Gear, Inputs};
-use crate::limits::Config;
 use crate::parking::Parking;
 use crate::seat::SeatState;
-use crate::verdict::Reason;
-use crate::word::{codes, retained};
+
+use supervisor_terms::word::{codes, permit, retained};
+use supervisor_terms::{Config, EpbState, Gear, Inputs, Reason};
 
 codes! {
     /// The direction driven in since standstill.

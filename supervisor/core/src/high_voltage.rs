@@ -7,15 +7,13 @@
 //! - K1 may close ⇒ restart complete and K4 known open; K4 may close ⇒ restart complete and K1 known closed.
 
 use crate::clock::Ticks;
-use crate::envelope::{ContactorBound, Permission, permit};
+use crate::envelope::{ContactorBound, Permission};
 use crate::evidence::{Evidence, SeatView, percent};
-use crate::input::{Contact, EpbState, Inputs, Key};
-use crate::limits::Config;
 use crate::parking::Parking;
 use crate::seat::SeatState;
-use crate::units::Timer;
-use crate::verdict::Reason;
-use crate::word::{codes, retained};
+
+use supervisor_terms::word::{codes, permit, retained};
+use supervisor_terms::{Config, Contact, EpbState, Inputs, Key, Reason, Timer};
 
 codes! {
     /// How far the shutdown after leave has gone.

@@ -28,36 +28,25 @@ extern crate kani;
 mod boot;
 mod brake;
 mod clock;
-mod command;
 mod decide;
 mod drive;
 mod envelope;
 mod evidence;
 mod gear;
 mod high_voltage;
-mod input;
-mod limits;
 mod mitigation;
 mod parking;
-mod sealed;
 mod seat;
 mod state;
 mod steering;
 mod step;
-mod threat;
-mod units;
-mod verdict;
 mod vet;
-mod word;
+
+pub use supervisor_terms::*;
 
 pub use boot::{Boot, Pending, Record, ResetCause};
 pub use brake::Brake;
 pub use clock::Clock;
-pub use command::{
-    Auxiliaries, Body, BrakeMode, Channel, Command, Commands, ContactorRequest, Contactors, DriveTorque, DrivingMode,
-    EpbRequest, GearRequest, Origin, Outputs, ParkingBrake, Priority, Rejection, Retarder, RetarderMode, ServiceBrake,
-    Steering, Warnings, Wiper,
-};
 pub use decide::{Decided, decide};
 pub use drive::{Drive, Mode};
 pub use envelope::{
@@ -66,25 +55,13 @@ pub use envelope::{
 };
 pub use gear::{Direction, GearState};
 pub use high_voltage::{HighVoltage, LastKey, Restart, Stage};
-pub use input::{
-    AdsState, Cause, Contact, EpbMode, EpbState, EpbSwitch, EpsState, Gear, Inputs, Key, Seat, Signal, XbrStatus,
-};
-pub use limits::{Config, LIMITS, Limit, Row};
 pub use mitigation::Mitigation;
 pub use parking::{Parking, PedalChain};
-pub use sealed::{ConfigError, SEALED_BYTES, Sealed};
 pub use seat::SeatState;
 pub use state::{STATE_WORDS, State, StateImage};
 pub use steering::SteeringState;
 pub use step::{Decision, Occupancy, Status, record, step};
-pub use threat::{Alert, Closing, Level, Object, Threat};
-pub use units::{
-    AngleDeciDeg, BarTorque50mNm, ClosingCmS, Count, CurrentDeciA, DecelMs2Q11, DistanceCm, Millis, OffsetCm, Pedal250,
-    Percent, PercentPerS, RateDeciDegS, Rest, SpeedKmhQ8, Timer, TorqueNmQ10,
-};
-pub use verdict::{ExitReason, Faults, Kind, Reason, Verdict, Verdicts};
 pub use vet::{
     vet, vet_auxiliaries, vet_body, vet_brake, vet_contactors, vet_drive, vet_epb, vet_gear, vet_mode, vet_retarder,
     vet_steering, vet_target_speed, vet_warnings,
 };
-pub use word::{Word, Words};

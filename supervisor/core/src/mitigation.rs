@@ -5,11 +5,9 @@
 
 use crate::clock::Ticks;
 use crate::evidence::{BrakePedal, Evidence};
-use crate::input::{EpbState, Inputs};
-use crate::limits::Config;
-use crate::threat::{Alert, Closing, Level, Threat};
-use crate::units::{AngleDeciDeg, DecelMs2Q11, Timer};
-use crate::word::retained;
+
+use supervisor_terms::word::retained;
+use supervisor_terms::{Alert, AngleDeciDeg, Closing, Config, DecelMs2Q11, EpbState, Inputs, Level, Threat, Timer};
 
 retained! {
     /// The mitigation machine.

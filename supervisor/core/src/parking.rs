@@ -9,15 +9,12 @@
 //! - apply obliged ⇒ release refused (`Envelope::is_feasible`).
 
 use crate::clock::Ticks;
-use crate::command::{EpbRequest, Outputs};
-use crate::envelope::{EpbBound, permit};
+use crate::envelope::EpbBound;
 use crate::evidence::{Evidence, SeatView};
-use crate::input::{Contact, EpbState, EpbSwitch, Gear, Inputs};
-use crate::limits::Config;
 use crate::seat::SeatState;
-use crate::units::Timer;
-use crate::verdict::Reason;
-use crate::word::{codes, retained};
+
+use supervisor_terms::word::{codes, permit, retained};
+use supervisor_terms::{Config, Contact, EpbRequest, EpbState, EpbSwitch, Gear, Inputs, Outputs, Reason, Timer};
 
 codes! {
     /// The accelerator "pressed anew" (SEAT-5).

@@ -6,10 +6,9 @@
 
 use crate::clock::Ticks;
 use crate::evidence::{Evidence, SeatView};
-use crate::input::{Contact, EpbState, Inputs, Key};
-use crate::limits::Config;
-use crate::units::Timer;
-use crate::word::retained;
+
+use supervisor_terms::word::retained;
+use supervisor_terms::{Config, Contact, EpbState, Inputs, Key, Timer};
 
 retained! {
     /// The seat machine.

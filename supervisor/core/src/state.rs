@@ -3,7 +3,6 @@
 use crate::boot::{Boot, Record, ResetCause};
 use crate::brake::Brake;
 use crate::clock::Clock;
-use crate::command::Body;
 use crate::drive::Drive;
 use crate::gear::GearState;
 use crate::high_voltage::{HighVoltage, Stage};
@@ -11,8 +10,9 @@ use crate::mitigation::Mitigation;
 use crate::parking::Parking;
 use crate::seat::SeatState;
 use crate::steering::SteeringState;
-use crate::verdict::Faults;
-use crate::word::{Words, retained};
+
+use supervisor_terms::word::{Words, retained};
+use supervisor_terms::{Body, Faults};
 
 retained! {
     /// Everything the supervisor remembers from cycle to cycle.

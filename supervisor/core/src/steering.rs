@@ -4,15 +4,15 @@
 //! measured angle permit: on a fault it never jumps. Weight and overlay torque fade in and out.
 
 use crate::clock::Ticks;
-use crate::command::Outputs;
 use crate::drive::Mode;
-use crate::envelope::{Permission, SteeringBound, permit};
+use crate::envelope::{Permission, SteeringBound};
 use crate::evidence::Evidence;
-use crate::input::{EpsState, Inputs};
-use crate::limits::Config;
-use crate::units::{AngleDeciDeg, Percent, RateDeciDegS, Rest, SpeedKmhQ8, Timer, TorqueNmQ10};
-use crate::verdict::Reason;
-use crate::word::retained;
+
+use supervisor_terms::word::{permit, retained};
+use supervisor_terms::{
+    AngleDeciDeg, Config, EpsState, Inputs, Outputs, Percent, RateDeciDegS, Reason, Rest, SpeedKmhQ8, Timer,
+    TorqueNmQ10,
+};
 
 retained! {
     /// The steering machine.

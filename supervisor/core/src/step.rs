@@ -1,19 +1,16 @@
 //! Step: the only way in.
 
-use crate::command::{Commands, Outputs};
 use crate::decide::{Decided, decide};
 use crate::drive::Mode;
 use crate::envelope::Envelope;
 use crate::high_voltage::Stage;
-use crate::input::Inputs;
-use crate::limits::Config;
-use crate::sealed::Sealed;
 use crate::state::{State, StateImage};
-use crate::threat::{Level, Threat};
-use crate::units::Millis;
-use crate::verdict::{ExitReason, Faults, Verdicts};
 use crate::vet::vet;
-use crate::word::codes;
+
+use supervisor_terms::word::codes;
+use supervisor_terms::{
+    Commands, Config, ExitReason, Faults, Inputs, Level, Millis, Outputs, Sealed, Threat, Verdicts,
+};
 
 codes! {
     /// What the supervisor says of the seat.

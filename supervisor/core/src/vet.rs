@@ -4,14 +4,13 @@
 //! the rest. Each takes the outputs given so far. Whatever comes in, what goes out is inside the envelope
 //! (SELF-2): sound, transparent, idempotent.
 
-use crate::command::{
-    Auxiliaries, Body, BrakeMode, Command, Commands, ContactorRequest, Contactors, DriveTorque, DrivingMode,
-    EpbRequest, GearRequest, Origin, Outputs, ParkingBrake, Priority, Retarder, ServiceBrake, Steering, Warnings,
-};
 use crate::envelope::{Bound, ContactorBound, Envelope, Permission};
-use crate::input::{EpbMode, Gear};
-use crate::units::{AngleDeciDeg, DecelMs2Q11, Percent, SpeedKmhQ8, TorqueNmQ10};
-use crate::verdict::{Kind, Reason, Verdict, Verdicts};
+
+use supervisor_terms::{
+    Auxiliaries, Body, BrakeMode, Command, Commands, ContactorRequest, Contactors, DecelMs2Q11, DriveTorque,
+    DrivingMode, EpbMode, EpbRequest, Gear, GearRequest, Kind, Origin, Outputs, ParkingBrake, Percent, Priority,
+    Reason, Retarder, ServiceBrake, SpeedKmhQ8, Steering, TorqueNmQ10, Verdict, Verdicts, Warnings,
+};
 
 /// Vets every channel of one cycle.
 #[must_use]
@@ -46,11 +45,6 @@ pub fn vet(envelope: &Envelope, commands: &Commands) -> (Outputs, Verdicts) {
     (out, Verdicts::new(list))
 }
 
-/// Splits a command into its value, or the neutral or fallback value with the reason why.
-fn value_or<T: Copy>(usable: Result<T, Reason>, fallback: T) -> T {
-    usable.unwrap_or(fallback)
-}
-
 /// The verdict of a channel: `Pass` exactly when a usable command goes out unchanged.
 fn judge<T: PartialEq>(
     usable: Result<T, Reason>,
@@ -73,7 +67,7 @@ fn judge<T: PartialEq>(
 pub fn vet_gear(envelope: &Envelope, command: Command<GearRequest>) -> (GearRequest, Verdict) {
     let bound = &envelope.gear;
     let usable = command.usable(envelope.timeouts.ms100);
-    let wanted = value_or(usable, GearRequest::Hold);
+    let wanted = usable.unwrap_or(GearRequest::Hold);
     let permission: Permission = match wanted {
         GearRequest::Hold => Ok(()),
         GearRequest::Drive => bound.drive,
@@ -107,7 +101,7 @@ pub fn vet_brake(envelope: &Envelope, command: Command<ServiceBrake>) -> (Servic
         ..ServiceBrake::NEUTRAL
     };
     let holds = bound.fallback > DecelMs2Q11::ZERO;
-    let wanted = value_or(usable, if holds { held } else { ServiceBrake::NEUTRAL });
+    let wanted = usable.unwrap_or(if holds { held } else { ServiceBrake::NEUTRAL });
     let mut out = wanted;
     let mut cause = None;
     // An obligation carries its own mode and priority: the driver's demand is the floor.
@@ -144,10 +138,10 @@ pub fn vet_retarder(envelope: &Envelope, given: &Outputs, command: Command<Retar
     let usable = command.usable(envelope.timeouts.ms100);
     let fallback = Retarder {
         torque: bound.retarder_fallback,
-        mode: crate::command::RetarderMode::Torque,
+        mode: supervisor_terms::RetarderMode::Torque,
         priority: Priority::Low,
     };
-    let wanted = value_or(usable, if bound.retarder_fallback > Percent::ZERO { fallback } else { Retarder::NEUTRAL });
+    let wanted = usable.unwrap_or(if bound.retarder_fallback > Percent::ZERO { fallback } else { Retarder::NEUTRAL });
     let room = u32::from(bound.cap.most.raw().saturating_sub(given.brake.total.raw()));
     let share = room.saturating_mul(100).checked_div(u32::from(bound.retarder_decel.raw())).unwrap_or(100).min(100);
     let mut most = bound.retarder;
@@ -169,7 +163,7 @@ fn limited(wanted: Percent, bound: Bound<Percent>) -> (Percent, Verdict, Option<
 pub fn vet_drive(envelope: &Envelope, given: &Outputs, command: Command<DriveTorque>) -> (DriveTorque, Verdict) {
     let bound = &envelope.torque;
     let usable = command.usable(envelope.timeouts.ms50);
-    let wanted = value_or(usable, DriveTorque::NEUTRAL);
+    let wanted = usable.unwrap_or(DriveTorque::NEUTRAL);
     let by_driver = wanted.origin == Origin::Driver;
     let mut most = if by_driver { bound.driver } else { bound.automated };
     most.lower_if(!by_driver && !wanted.active, Percent::ZERO, Reason::NotActive);
@@ -199,7 +193,7 @@ pub fn vet_drive(envelope: &Envelope, given: &Outputs, command: Command<DriveTor
 pub fn vet_target_speed(envelope: &Envelope, command: Command<SpeedKmhQ8>) -> (SpeedKmhQ8, Verdict) {
     let bound = envelope.target_speed;
     let usable = command.usable(envelope.timeouts.ms50);
-    let wanted = value_or(usable, SpeedKmhQ8::ZERO);
+    let wanted = usable.unwrap_or(SpeedKmhQ8::ZERO);
     let out = wanted.min(bound.most);
     let pass = Verdict::above(Kind::Pass, Reason::Within, wanted.wide(), bound.most.wide());
     let cause = (wanted > out).then(|| Verdict::above(Kind::Limit, bound.reason, wanted.wide(), bound.most.wide()));
@@ -211,7 +205,7 @@ pub fn vet_target_speed(envelope: &Envelope, command: Command<SpeedKmhQ8>) -> (S
 pub fn vet_epb(envelope: &Envelope, command: Command<ParkingBrake>) -> (ParkingBrake, Verdict) {
     let bound = &envelope.epb;
     let usable = command.usable(envelope.timeouts.ms200);
-    let wanted = value_or(usable, ParkingBrake::NEUTRAL);
+    let wanted = usable.unwrap_or(ParkingBrake::NEUTRAL);
     let code = wanted.request.code();
     let refuse = |permission: Permission| match permission {
         Ok(()) => (wanted, None),
@@ -237,7 +231,7 @@ pub fn vet_epb(envelope: &Envelope, command: Command<ParkingBrake>) -> (ParkingB
 pub fn vet_steering(envelope: &Envelope, command: Command<Steering>) -> (Steering, Verdict) {
     let bound = &envelope.steering;
     let usable = command.usable(envelope.timeouts.ms50);
-    let wanted = value_or(usable, Steering::NEUTRAL);
+    let wanted = usable.unwrap_or(Steering::NEUTRAL);
     // Not permitted, not asked for, or lost: fade out from where it is.
     let refusal = match (bound.enable, wanted.enable) {
         (Err(reason), _) => Some(reason),
@@ -248,7 +242,7 @@ pub fn vet_steering(envelope: &Envelope, command: Command<Steering>) -> (Steerin
         let out = Steering {
             enable: bound.weight_least > Percent::ZERO,
             angle: bound.angle_neutral,
-            rate: crate::units::RateDeciDegS::ZERO,
+            rate: supervisor_terms::RateDeciDegS::ZERO,
             overlay: bound.overlay_neutral,
             weight: bound.weight_least,
             bar_limit: bound.bar,
@@ -273,7 +267,7 @@ pub fn vet_steering(envelope: &Envelope, command: Command<Steering>) -> (Steerin
     let limit = bound.overlay.raw();
     let out = Steering {
         enable: true,
-        angle: wanted.angle.clamp_between(bound.angle_least, bound.angle_most),
+        angle: wanted.angle.max(bound.angle_least).min(bound.angle_most),
         rate: wanted.rate.min(bound.rate),
         overlay: TorqueNmQ10::new(wanted.overlay.raw().max(limit.saturating_neg()).min(limit)),
         weight: wanted.weight.max(bound.weight_least).min(bound.weight_most),
@@ -303,7 +297,7 @@ pub fn vet_steering(envelope: &Envelope, command: Command<Steering>) -> (Steerin
 #[must_use]
 pub fn vet_contactors(envelope: &Envelope, given: &Outputs, command: Command<Contactors>) -> (Contactors, Verdict) {
     let usable = command.usable(envelope.timeouts.ms100);
-    let wanted = value_or(usable, Contactors::NEUTRAL);
+    let wanted = usable.unwrap_or(Contactors::NEUTRAL);
     let mut k4 = envelope.k4;
     if given.drive.torque > Percent::ZERO {
         k4.obliged = false;
@@ -338,7 +332,7 @@ fn contactor(bound: ContactorBound, wanted: ContactorRequest) -> (ContactorReque
 #[must_use]
 pub fn vet_auxiliaries(envelope: &Envelope, command: Command<Auxiliaries>) -> (Auxiliaries, Verdict) {
     let usable = command.usable(envelope.timeouts.ms200);
-    let wanted = value_or(usable, Auxiliaries::NEUTRAL);
+    let wanted = usable.unwrap_or(Auxiliaries::NEUTRAL);
     let (out, cause) = match envelope.auxiliaries_off {
         Ok(()) => (wanted, None),
         Err(reason) => (Auxiliaries::NEUTRAL, Some(Verdict::fact(Kind::Limit, reason, 0, 1))),
@@ -352,7 +346,7 @@ pub fn vet_auxiliaries(envelope: &Envelope, command: Command<Auxiliaries>) -> (A
 pub fn vet_warnings(envelope: &Envelope, command: Command<Warnings>) -> (Warnings, Verdict) {
     let bound = envelope.warnings;
     let usable = command.usable(envelope.timeouts.ms200);
-    let wanted = value_or(usable, Warnings::NEUTRAL);
+    let wanted = usable.unwrap_or(Warnings::NEUTRAL);
     let out = Warnings {
         forward_collision: wanted.forward_collision || bound.forward_collision,
         pedestrian: wanted.pedestrian || bound.pedestrian,
@@ -371,7 +365,7 @@ pub fn vet_warnings(envelope: &Envelope, command: Command<Warnings>) -> (Warning
 pub fn vet_body(envelope: &Envelope, given: &Outputs, command: Command<Body>) -> (Body, Verdict) {
     let usable = command.usable(envelope.timeouts.ms200);
     // A lost command keeps what it was (E2E-2), but for the horn.
-    let wanted = value_or(usable, Body { horn: false, brake_lamps: false, ..envelope.body_fallback });
+    let wanted = usable.unwrap_or(Body { horn: false, brake_lamps: false, ..envelope.body_fallback });
     let mut out = wanted;
     let mut cause = None;
     if envelope.warnings.hazard_flashers {
@@ -389,7 +383,7 @@ pub fn vet_body(envelope: &Envelope, given: &Outputs, command: Command<Body>) ->
 #[must_use]
 pub fn vet_mode(envelope: &Envelope, command: Command<DrivingMode>) -> (DrivingMode, Verdict) {
     let usable = command.usable(envelope.timeouts.ms200);
-    let wanted = value_or(usable, DrivingMode::Manual);
+    let wanted = usable.unwrap_or(DrivingMode::Manual);
     let (out, cause) = match (wanted, envelope.automated) {
         (DrivingMode::Automated, Err(reason)) => {
             (DrivingMode::Manual, Some(Verdict::fact(Kind::Block, reason, wanted.code(), DrivingMode::Manual.code())))
@@ -397,11 +391,4 @@ pub fn vet_mode(envelope: &Envelope, command: Command<DrivingMode>) -> (DrivingM
         (DrivingMode::Automated | DrivingMode::Manual, _) => (wanted, None),
     };
     (out, judge(usable, &out, &DrivingMode::Manual, Verdict::PASS, cause))
-}
-
-impl AngleDeciDeg {
-    /// Between `least` and `most`; `most` if they are crossed.
-    fn clamp_between(self, least: Self, most: Self) -> Self {
-        self.max(least).min(most)
-    }
 }

@@ -1,6 +1,6 @@
 //! The first cut: what the object lists mean, as a small plain value.
 //!
-//! `supervisor-perceive` computes it; [`decide`](crate::decide) accepts *any* value of it, so the proofs of the
+//! `supervisor-perceive` computes it; `decide` accepts *any* value of it, so the proofs of the
 //! decision need no assumption about perception.
 
 use crate::units::{ClosingCmS, DecelMs2Q11, DistanceCm, OffsetCm};

@@ -3,11 +3,11 @@
 //! Nothing else in the supervisor holds a number of its own. "own" means that no source gives it: a default of
 //! ours that the safety case names as an assumption.
 
-use crate::envelope::permit;
 use crate::units::{
     AngleDeciDeg, BarTorque50mNm, Count, CurrentDeciA, DecelMs2Q11, DistanceCm, Millis, OffsetCm, Pedal250, Percent,
     PercentPerS, RateDeciDegS, SpeedKmhQ8, TorqueNmQ10,
 };
+use crate::word::permit;
 use crate::word::{Word, Words};
 
 /// One row of the table, for people and for documents.

@@ -63,6 +63,7 @@ impl<T: Word> Words for T {
 }
 
 /// Gives plain enums their stable codes: `code`, `from_code`, `ALL`, and the word at rest.
+#[macro_export]
 macro_rules! codes {
     ($($(#[$doc:meta])* $name:ident { $($(#[$variant_doc:meta])* $variant:ident = $code:literal,)+ })*) => {$(
         $(#[$doc])*
@@ -95,9 +96,10 @@ macro_rules! codes {
         }
     )*};
 }
-pub(crate) use codes;
+pub use codes;
 
 /// Declares one machine's retained state: fields with their value after reset, and their words at rest.
+#[macro_export]
 macro_rules! retained {
     ($(#[$doc:meta])* $name:ident { $($(#[$field_doc:meta])* $field:ident: $type:ty = $initial:expr,)+ }) => {
         $(#[$doc])*
@@ -121,4 +123,13 @@ macro_rules! retained {
         }
     };
 }
-pub(crate) use retained;
+pub use retained;
+
+/// Permitted when every condition holds; refused with the reason beside the first that does not.
+#[macro_export]
+macro_rules! permit {
+    ($($condition:expr => $reason:expr),+ $(,)?) => {
+        $(if !$condition { Err($reason) } else)+ { Ok(()) }
+    };
+}
+pub use permit;

@@ -214,7 +214,9 @@ pub struct Verdicts {
 }
 
 impl Verdicts {
-    pub(crate) const fn new(list: [Verdict; 12]) -> Self {
+    /// The verdicts in the order of [`Channel`].
+    #[must_use]
+    pub const fn new(list: [Verdict; 12]) -> Self {
         Self { list }
     }
     /// The verdict of a channel.

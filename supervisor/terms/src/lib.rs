@@ -1,0 +1,45 @@
+//! Vocabulary of the bus safety supervisor: what its parts say to each other. Declarations, no decision.
+//!
+//! Units with their unit in the name, signals that may be unknown, commands of a closed world, the threat that
+//! perception reports, verdicts with stable codes, and the one table of limits with its seal. `supervisor-core`
+//! decides with them; perception, wire and report need no more than these.
+#![no_std]
+#![forbid(unsafe_code)]
+#![deny(
+    clippy::arithmetic_side_effects,
+    clippy::float_arithmetic,
+    clippy::indexing_slicing,
+    clippy::string_slice,
+    clippy::unreachable
+)]
+
+#[cfg(kani)]
+extern crate kani;
+
+mod command;
+mod input;
+mod limits;
+mod sealed;
+mod threat;
+mod units;
+mod verdict;
+#[doc(hidden)]
+pub mod word;
+
+pub use command::{
+    Auxiliaries, Body, BrakeMode, Channel, Command, Commands, ContactorRequest, Contactors, DriveTorque, DrivingMode,
+    EpbRequest, GearRequest, Origin, Outputs, ParkingBrake, Priority, Rejection, Retarder, RetarderMode, ServiceBrake,
+    Steering, Warnings, Wiper,
+};
+pub use input::{
+    AdsState, Cause, Contact, EpbMode, EpbState, EpbSwitch, EpsState, Gear, Inputs, Key, Seat, Signal, XbrStatus,
+};
+pub use limits::{Config, LIMITS, Limit, Row};
+pub use sealed::{ConfigError, SEALED_BYTES, Sealed};
+pub use threat::{Alert, Closing, Level, Object, Threat};
+pub use units::{
+    AngleDeciDeg, BarTorque50mNm, ClosingCmS, Count, CurrentDeciA, DecelMs2Q11, DistanceCm, Millis, OffsetCm, Pedal250,
+    Percent, PercentPerS, RateDeciDegS, Rest, SpeedKmhQ8, Timer, TorqueNmQ10,
+};
+pub use verdict::{ExitReason, Faults, Kind, Reason, Verdict, Verdicts};
+pub use word::{Word, Words};
