@@ -39,8 +39,14 @@ impl Cycle<'_> {
         let (wheel, motor) = (self.inputs.wheel_speed.known()?, self.inputs.motor_speed.known()?);
         Some((wheel.raw().min(motor.raw()), wheel.raw().max(motor.raw())))
     }
+    /// Both speeds known below the standstill speed.
     fn standstill(&self) -> bool {
         self.speeds().is_some_and(|(_, high)| high < self.config.standstill_speed.raw())
+    }
+    /// Standstill, and the speeds agree.
+    fn agreed_standstill(&self) -> bool {
+        self.standstill()
+            && self.speeds().is_some_and(|(low, high)| high.saturating_sub(low) <= self.config.speed_agree.raw())
     }
     fn loads_stopped(&self) -> bool {
         let bound = self.config.stopped_current.raw().unsigned_abs();
@@ -49,7 +55,10 @@ impl Cycle<'_> {
             && self.inputs.hv_current.known().is_some_and(|current| current.raw().unsigned_abs() <= bound)
     }
     fn torque_stopped(&self) -> bool {
-        self.inputs.executed_torque.known().is_some_and(|torque| torque <= self.config.stopped_torque)
+        self.inputs
+            .executed_torque
+            .known()
+            .is_some_and(|torque| torque <= self.config.stopped_torque && torque <= Percent::FULL)
     }
     fn releases(&self) -> bool {
         self.outputs.epb.request == EpbRequest::Release
@@ -141,7 +150,8 @@ impl Cycle<'_> {
         let due = self.old.high_voltage.stage == Stage::Up
             && self.new.high_voltage.parked.reached(self.config.shutdown_after)
             && !(self.inputs.k4.is(Contact::Open) && self.inputs.k1.is(Contact::Open))
-            && self.standstill()
+            && self.agreed_standstill()
+            && self.inputs.seat.iter().all(|sensor| sensor.is(Seat::Vacant))
             && self.inputs.epb.is(EpbState::Applied)
             && self.torque_stopped()
             && !self.new.is_safe_state();
@@ -154,7 +164,7 @@ impl Cycle<'_> {
         let due = self.new.high_voltage.stage == Stage::OpeningK1
             && self.inputs.k4.is(Contact::Open)
             && self.loads_stopped()
-            && self.standstill()
+            && self.agreed_standstill()
             && !self.new.is_safe_state();
         implies(due, self.outputs.contactors.k1 == ContactorRequest::Open)
     }
