@@ -2,6 +2,7 @@
 
 use supervisor_core::{ClosingCmS, Config, DecelMs2Q11, DistanceCm, Level, Millis, Object, OffsetCm};
 
+use crate::kernel::{farther_than, nearer_than};
 use crate::scene::{CameraObject, Class, RadarObject};
 
 /// What one object, or several merged, may oblige and permit.
@@ -49,24 +50,16 @@ impl Assessment {
     };
 }
 
-/// TTC-1: T = distance / closing speed, compared with `limit` by cross-multiplication.
-///
-/// Both sides fit 32 bits: 65 535 cm · 1000 and 32 767 cm/s · 65 535 ms, saturating beyond.
-fn sides(distance: DistanceCm, closing: ClosingCmS, limit: Millis) -> Option<(u32, u32)> {
-    let closing = u32::try_from(closing.raw()).ok().filter(|closing| *closing > 0)?;
-    Some((u32::from(distance.raw()).saturating_mul(1000), limit.raw().saturating_mul(closing)))
-}
-
-/// T < `limit`. Not closing: no TTC, never.
+/// TTC-1: T < `limit`. Not closing: no TTC, never.
 #[must_use]
 pub fn reached(distance: DistanceCm, closing: ClosingCmS, limit: Millis) -> bool {
-    sides(distance, closing, limit).is_some_and(|(distance, limit)| distance < limit)
+    u16::try_from(closing.raw()).is_ok_and(|closing| nearer_than(distance.raw(), closing, limit.raw()))
 }
 
-/// T ≤ `limit`. Not closing: no TTC, never.
+/// TTC-1: T ≤ `limit`. Not closing: no TTC, never.
 #[must_use]
 pub fn reached_or_equal(distance: DistanceCm, closing: ClosingCmS, limit: Millis) -> bool {
-    sides(distance, closing, limit).is_some_and(|(distance, limit)| distance <= limit)
+    u16::try_from(closing.raw()).is_ok_and(|closing| closing > 0 && !farther_than(distance.raw(), closing, limit.raw()))
 }
 
 /// MIT-1 to MIT-3: the level that the time to collision calls for; the equalities are reading b.

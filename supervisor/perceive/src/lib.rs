@@ -17,6 +17,7 @@
 extern crate kani;
 
 mod assess;
+mod kernel;
 mod scene;
 
 pub use assess::{Assessment, camera_object, merge, radar_object, reached, reached_or_equal};

@@ -1,0 +1,122 @@
+//! Runs `cargo kani`, one harness at a time, and keeps the record.
+
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::time::Instant;
+
+use serde_json::Value;
+
+use super::judge::{Verdict, judge};
+use super::record::{Harness, List, Proof, ProveError, Record, Tools, sources_digest};
+
+/// The solver is named on the command line: Kani's default falls back silently where it is not there.
+const SOLVER: &str = "minisat";
+
+/// What to run.
+#[derive(Clone, Debug, Default)]
+pub struct Options {
+    /// Only these; all if empty.
+    pub harnesses: Vec<String>,
+    /// Only what took no longer than this when it was recorded, in seconds.
+    pub within: Option<u64>,
+    /// Run nothing: show the record and whether it is stale.
+    pub check: bool,
+}
+
+/// Whether `cargo kani` is there.
+#[must_use]
+pub fn available() -> bool {
+    let mut command = Command::new("cargo");
+    command.args(["kani", "--version"]).stdout(Stdio::null()).stderr(Stdio::null());
+    command.status().is_ok_and(|status| status.success())
+}
+
+/// Runs the chosen harnesses, updates the record, tells `say` of each line; the number of harnesses that are not
+/// proved on the present sources.
+///
+/// # Errors
+/// A file or the tool fails; a harness is unknown.
+pub fn prove(root: &Path, options: &Options, say: &mut impl FnMut(&str)) -> Result<usize, ProveError> {
+    let list = List::load(root)?;
+    let mut record = Record::load(root)?;
+    let sources = sources_digest(root)?;
+    if let Some(name) = options.harnesses.iter().find(|name| !list.harness.iter().any(|harness| harness.name == **name)) {
+        return Err(ProveError::Unknown(name.clone()));
+    }
+    if !options.check {
+        let chosen: Vec<&Harness> = list.harness.iter().filter(|harness| is_chosen(harness, options, &record)).collect();
+        for (index, harness) in chosen.iter().enumerate() {
+            say(&format!("[{}/{}] {} ...", index.saturating_add(1), chosen.len(), harness.name));
+            let (proof, tools) = run(root, harness, &sources)?;
+            say(&format!("        {} in {} s, {} checks, {} covers", word(&proof.verdict), proof.seconds, proof.checks, proof.covers));
+            record.put(proof, &list);
+            record.tools = tools;
+            record.save(root)?;
+        }
+    }
+    Ok(show(&list, &record, &sources, say))
+}
+
+fn is_chosen(harness: &Harness, options: &Options, record: &Record) -> bool {
+    let named = options.harnesses.is_empty() || options.harnesses.contains(&harness.name);
+    let seconds = record.of(&harness.name).map_or(0, |proof| proof.seconds);
+    named && options.within.is_none_or(|within| seconds <= within)
+}
+
+fn word(verdict: &Verdict) -> String {
+    match verdict {
+        Verdict::Proved => "proved".to_owned(),
+        Verdict::Failed(why) => format!("FAILED: {why}"),
+        Verdict::Vacuous(why) => format!("VACUOUS: {why}"),
+        Verdict::Undetermined(why) => format!("UNDETERMINED: {why}"),
+    }
+}
+
+/// Shows every harness of the list with what the record says of it; counts what is not proved now.
+fn show(list: &List, record: &Record, sources: &str, say: &mut impl FnMut(&str)) -> usize {
+    let mut open = 0_usize;
+    say("");
+    for harness in &list.harness {
+        let line = match record.of(&harness.name) {
+            None => "stated, not run".to_owned(),
+            Some(proof) if proof.sources != sources => format!("STALE (was: {})", word(&proof.verdict)),
+            Some(proof) => format!("{} ({}, {} s)", word(&proof.verdict), proof.harness.extent, proof.seconds),
+        };
+        if !line.starts_with("proved") {
+            open = open.saturating_add(1);
+        }
+        say(&format!("{:<52} {line}", harness.name));
+    }
+    say(&format!("{} of {} harnesses proved on the present sources", list.harness.len().saturating_sub(open), list.harness.len()));
+    open
+}
+
+fn run(root: &Path, harness: &Harness, sources: &str) -> Result<(Proof, Tools), ProveError> {
+    let export = root.join("target").join("kani-export.json");
+    // An old export would be read as this run's: it goes first.
+    if export.exists() {
+        std::fs::remove_file(&export).map_err(|error| ProveError::File { path: export.clone(), error })?;
+    }
+    let started = Instant::now();
+    let mut command = Command::new("cargo");
+    command.current_dir(root).args(["kani", "-p", "supervisor-proofs", "--exact", "--harness", &harness.id()]);
+    command.args(["--solver", SOLVER, "--output-format", "terse", "-Z", "unstable-options", "--harness-timeout", "900s"]);
+    command.arg("--export-json").arg(&export).stdout(Stdio::null()).stderr(Stdio::null());
+    command.status().map_err(ProveError::Tool)?;
+    let seconds = started.elapsed().as_secs();
+    let json: Value = std::fs::read_to_string(&export).ok().and_then(|text| serde_json::from_str(&text).ok()).unwrap_or(Value::Null);
+    let count = |category: bool| {
+        let results = json.pointer("/verification_results/results/0/checks").and_then(Value::as_array);
+        let is_cover = |check: &&Value| (check.get("category").and_then(Value::as_str) == Some("cover")) == category;
+        results.into_iter().flatten().filter(is_cover).count()
+    };
+    let verdict = judge(&json, &harness.id(), harness.reaches());
+    let proof = Proof { harness: harness.clone(), verdict, checks: count(false), covers: count(true), seconds, sources: sources.to_owned() };
+    let tool = |key: &str| json.pointer(&format!("/tools/{key}")).map_or_else(String::new, plain);
+    let tools = Tools { kani: tool("kani"), rustc: tool("rustc"), cbmc: tool("cbmc"), solver: SOLVER.to_owned() };
+    Ok((proof, tools))
+}
+
+fn plain(value: &Value) -> String {
+    value.as_str().map_or_else(|| value.to_string(), str::to_owned)
+}
