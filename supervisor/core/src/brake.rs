@@ -182,7 +182,8 @@ impl BrakeBound {
 /// What may be: PHB-1, TRQ-3, TRQ-4. Never below the floor, never below what the driver's pedal asks for.
 fn cap(situation: &Situation, floor: Bound<DecelMs2Q11>, evidence: &Evidence, config: &Config) -> Bound<DecelMs2Q11> {
     let threat = situation.threat;
-    let hazard = !threat.known || threat.emergency || situation.mitigation.three || situation.safe_state;
+    let danger = situation.mitigation.permitted || situation.mitigation.three;
+    let hazard = !threat.known || threat.emergency || danger || situation.safe_state;
     let mut cap = Bound { most: config.brake_cap, reason: Reason::BrakeCap };
     // PHB-1: the comfort cap needs its own evidence, a road known to be clear.
     cap.lower_if(!hazard, config.comfort_cap, Reason::PhantomBraking);

@@ -84,19 +84,19 @@ fn envelope(
     let State { seat, parking, high_voltage, mitigation, drive, brake, .. } = next;
     let automated = drive.permission(must, threat, evidence, inputs);
     let situation = Situation { mitigation, threat, mode: drive.mode, safe_state: must.safe_state };
-    let held = must.safe_state.then_some(Reason::SafeState);
-    let contactors = high_voltage.bounds(evidence, inputs, held, config);
+    let held = permit!(!must.safe_state => Reason::SafeState);
+    let (k4, k1) = high_voltage.bounds(evidence, inputs, held, config);
     let steering = next.steering.bound(drive.mode, must.safe_state, evidence, inputs, ticks, config);
     Envelope {
         timeouts: Timeouts { ms50: config.timeout_50, ms100: config.timeout_100, ms200: config.timeout_200 },
         gear: next.gear.bound(parking, seat, evidence, inputs, must.safe_state, config),
         brake: brake.bound(&situation, evidence, inputs, ticks, config),
         torque: drive.bound(must, automated, threat, evidence, inputs, ticks, config),
-        target_speed: drive.target_speed(must, automated, config),
+        target_speed: drive.target_speed(must, automated, threat, config),
         epb: parking.bound(seat, evidence, inputs, must.safe_state, config),
         steering,
-        k4: contactors.k4,
-        k1: contactors.k1,
+        k4,
+        k1,
         auxiliaries_off: permit!(evidence.standstill => Reason::NotStandstill),
         warnings: WarningBound {
             forward_collision: mitigation.forward,

@@ -6,7 +6,7 @@ use crate::evidence::{BrakePedal, Evidence, percent};
 
 use supervisor_terms::word::{codes, permit, retained};
 use supervisor_terms::{
-    AdsState, Config, DecelMs2Q11, DriveTorque, DrivingMode, EpbState, ExitReason, Gear, Inputs, Millis, Origin,
+    AdsState, Config, DecelMs2Q11, DriveTorque, DrivingMode, EpbState, ExitReason, Gear, Inputs, Level, Millis, Origin,
     Outputs, Pedal250, Percent, PercentPerS, Reason, Rest, SpeedKmhQ8, Threat, Timer,
 };
 
@@ -102,7 +102,7 @@ impl Drive {
             (Mode::Manual, _) => (Mode::Manual, self.exit),
             (Mode::Automated | Mode::Suspended, Some(reason)) => (Mode::Manual, reason),
             (Mode::Automated | Mode::Suspended, None) => {
-                let over = self.overridden(evidence, config) && !must.mitigation;
+                let over = self.overridden(evidence, config);
                 (if over { Mode::Suspended } else { Mode::Automated }, self.exit)
             }
         };
@@ -146,13 +146,8 @@ impl Drive {
         config: &Config,
     ) -> Self {
         let against = outputs.drive.torque > Percent::ZERO && braking > DecelMs2Q11::ZERO;
-        let hill = if braking == DecelMs2Q11::ZERO {
-            Timer::STOPPED
-        } else if against || self.hill.is_running() {
-            self.hill.run(ticks.safety)
-        } else {
-            self.hill
-        };
+        let counts = braking > DecelMs2Q11::ZERO && (against || self.hill.is_running());
+        let hill = self.hill.run_while(counts, ticks.safety);
         let (mode, exit) = match (self.mode, outputs.mode) {
             (Mode::Manual, DrivingMode::Automated) => (Mode::Automated, ExitReason::None),
             (Mode::Automated | Mode::Suspended, DrivingMode::Manual) => (Mode::Manual, ExitReason::Requested),
@@ -224,6 +219,8 @@ impl Drive {
         automated.lower_if(self.mode == Mode::Suspended, driver.most, Reason::DriverOverride);
         automated.lower_if(self.mode == Mode::Manual || granted.is_err(), Percent::ZERO, Reason::ModeNotGranted);
         automated.lower_if(!threat.known, Percent::ZERO, Reason::PerceptionUnknown);
+        // Rule 1: no automated torque towards an obstacle, at whatever speed; MIT-6's gates only end obligations.
+        automated.lower_if(threat.level != Level::None, Percent::ZERO, Reason::ObstacleAhead);
         automated.lower(config.automated_torque, Reason::AccelerationBound);
 
         let tired = self.hill.due(config.hill_hold, ticks.safety);
@@ -238,12 +235,19 @@ impl Drive {
     }
 
     /// SPD-1: the limit, and nothing while an obligation runs or the mode is manual.
-    pub(crate) fn target_speed(&self, must: Obligations, granted: Permission, config: &Config) -> Bound<SpeedKmhQ8> {
+    pub(crate) fn target_speed(
+        &self,
+        must: Obligations,
+        granted: Permission,
+        threat: &Threat,
+        config: &Config,
+    ) -> Bound<SpeedKmhQ8> {
         let mut bound = Bound { most: config.speed_limit, reason: Reason::SpeedLimit };
         if let Some(reason) = must.reason() {
             bound.lower(SpeedKmhQ8::ZERO, reason);
         }
         bound.lower_if(self.mode == Mode::Manual || granted.is_err(), SpeedKmhQ8::ZERO, Reason::ModeNotGranted);
+        bound.lower_if(threat.level != Level::None, SpeedKmhQ8::ZERO, Reason::ObstacleAhead);
         bound
     }
 }
@@ -270,6 +274,7 @@ fn exit_reason(must: Obligations, threat: &Threat, evidence: &Evidence, inputs: 
     let permission = permit!(
         !(must.safe_state || must.clock_fault) => ExitReason::Fault,
         !must.leave => ExitReason::Leave,
+        !must.mitigation => ExitReason::Mitigation,
         (evidence.brake_pedal == BrakePedal::Released) => ExitReason::BrakePedal,
         !must.takeover => ExitReason::Takeover,
         inputs.cruise_switch.is(true) => ExitReason::Switch,

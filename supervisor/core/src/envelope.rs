@@ -204,7 +204,10 @@ impl Envelope {
     pub fn is_feasible(&self) -> bool {
         let brake = self.brake.floor.most <= self.brake.cap.most;
         let steering = self.steering.angle_least <= self.steering.angle_most
+            && self.steering.angle_least <= self.steering.angle_neutral
+            && self.steering.angle_neutral <= self.steering.angle_most
             && self.steering.overlay >= TorqueNmQ10::ZERO
+            && self.steering.overlay_neutral.raw().unsigned_abs() <= self.steering.overlay.raw().unsigned_abs()
             && self.steering.weight_least <= self.steering.weight_most
             && self.steering.weight_most <= Percent::FULL;
         let epb = self.epb.obliged.is_none() || (self.epb.apply.is_ok() && self.epb.release.is_err());

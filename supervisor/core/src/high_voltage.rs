@@ -65,12 +65,6 @@ retained! {
     }
 }
 
-/// Both bounds.
-pub(crate) struct Bounds {
-    pub k4: ContactorBound,
-    pub k1: ContactorBound,
-}
-
 impl HighVoltage {
     /// `clean` says that a clean key-on counts as Off seen in this cycle (SELF-9).
     pub(crate) fn advance(
@@ -157,34 +151,38 @@ impl HighVoltage {
         self.stage == Stage::OpeningK1 && self.wait.reached(config.k1_deadline)
     }
 
-    /// The bounds of this cycle.
-    pub(crate) fn bounds(&self, evidence: &Evidence, inputs: &Inputs, held: Option<Reason>, config: &Config) -> Bounds {
-        let standing: Permission = held.map_or_else(|| permit!(evidence.standstill => Reason::NotStandstill), Err);
+    /// The bounds of K4 and K1 in this cycle.
+    pub(crate) fn bounds(
+        &self,
+        evidence: &Evidence,
+        inputs: &Inputs,
+        held: Permission,
+        config: &Config,
+    ) -> (ContactorBound, ContactorBound) {
+        let standing = held.and(permit!(evidence.standstill => Reason::NotStandstill));
         let committed = matches!(self.stage, Stage::OpeningK4 | Stage::OpeningK1);
-        let k4_open = standing.and_then(|()| permit!(torque_stopped(inputs, config) => Reason::LoadsNotStopped));
-        let k1_open = standing.and_then(|()| {
-            permit!(inputs.k4.is(Contact::Open) => Reason::K4NotOpen, loads_stopped(inputs, config) => Reason::LoadsNotStopped)
-        });
+        let k4_open = standing.and(permit!(torque_stopped(inputs, config) => Reason::LoadsNotStopped));
+        let k1_open = standing.and(permit!(
+            inputs.k4.is(Contact::Open) => Reason::K4NotOpen,
+            loads_stopped(inputs, config) => Reason::LoadsNotStopped,
+        ));
         // SEAT-8, HV-1: closing needs the driver's restart, and no shutdown in progress.
-        let closing = held.map_or_else(
-            || permit!(!committed => Reason::Shutdown, (self.restart == Restart::Started) => Reason::NoRestart),
-            Err,
-        );
-        let k1_close = closing.and_then(|()| permit!(inputs.k4.is(Contact::Open) => Reason::K4NotOpen));
-        let k4_close = closing.and_then(|()| permit!(inputs.k1.is(Contact::Closed) => Reason::K1NotClosed));
-        Bounds {
-            // The guards stand inside the obligation (rule 4): guard lost ⇒ it waits.
-            k4: ContactorBound {
-                obliged: committed && inputs.epb.is(EpbState::Applied) && k4_open.is_ok(),
-                open: k4_open,
-                close: k4_close,
-            },
-            k1: ContactorBound {
-                obliged: self.stage == Stage::OpeningK1 && k1_open.is_ok(),
-                open: k1_open,
-                close: k1_close,
-            },
-        }
+        let closing =
+            held.and(permit!(!committed => Reason::Shutdown, (self.restart == Restart::Started) => Reason::NoRestart));
+        let k1_close = closing.and(permit!(inputs.k4.is(Contact::Open) => Reason::K4NotOpen));
+        let k4_close = closing.and(permit!(inputs.k1.is(Contact::Closed) => Reason::K1NotClosed));
+        // The guards stand inside the obligation (rule 4): guard lost ⇒ it waits.
+        let k4 = ContactorBound {
+            obliged: committed && inputs.epb.is(EpbState::Applied) && k4_open.is_ok(),
+            open: k4_open,
+            close: k4_close,
+        };
+        let k1 = ContactorBound {
+            obliged: self.stage == Stage::OpeningK1 && k1_open.is_ok(),
+            open: k1_open,
+            close: k1_close,
+        };
+        (k4, k1)
     }
 }
 

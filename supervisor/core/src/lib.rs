@@ -49,10 +49,7 @@ pub use brake::Brake;
 pub use clock::Clock;
 pub use decide::{Decided, decide};
 pub use drive::{Drive, Mode};
-pub use envelope::{
-    Bound, BrakeBound, ContactorBound, Envelope, EpbBound, GearBound, Permission, SteeringBound, Timeouts, TorqueBound,
-    WarningBound,
-};
+pub use envelope::*;
 pub use gear::{Direction, GearState};
 pub use high_voltage::{HighVoltage, LastKey, Restart, Stage};
 pub use mitigation::Mitigation;
@@ -61,7 +58,4 @@ pub use seat::SeatState;
 pub use state::{STATE_WORDS, State, StateImage};
 pub use steering::SteeringState;
 pub use step::{Decision, Occupancy, Status, record, step};
-pub use vet::{
-    vet, vet_auxiliaries, vet_body, vet_brake, vet_contactors, vet_drive, vet_epb, vet_gear, vet_mode, vet_retarder,
-    vet_steering, vet_target_speed, vet_warnings,
-};
+pub use vet::*;

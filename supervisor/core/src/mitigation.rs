@@ -26,6 +26,9 @@ retained! {
         speedless: Timer = Timer::STOPPED,
         /// A level ended for lack of speed: hold until the parking brake is applied or the driver brakes (MIT-7).
         hold: bool = false,
+        /// An emergency was seen and its object is not known to be gone: braking stays permitted though nothing is
+        /// obliged (MIT-6, PHB-1).
+        permitted: bool = false,
         /// Forward-collision warning.
         forward: bool = false,
         /// Pedestrian-collision warning.
@@ -103,6 +106,7 @@ impl Mitigation {
                 || (by_driver && angle.is_some_and(|angle| angle > limit.raw().unsigned_abs()))
         };
 
+        let danger = threat.emergency || threat.level != Level::None;
         let braked = matches!(evidence.brake_pedal, BrakePedal::Pressed(_)) || inputs.epb.is(EpbState::Applied);
         Self {
             one: enter(Level::One, enter_one) || (self.one && !leaves(exit_one)),
@@ -112,6 +116,7 @@ impl Mitigation {
             standstill,
             speedless,
             hold: (self.hold || speedless.reached(config.level_speedless)) && !braked,
+            permitted: danger || (self.permitted && !over && !gone.reached(config.level_gone)),
             forward: alert(self.forward, threat.forward),
             pedestrian: alert(self.pedestrian, threat.pedestrian),
         }

@@ -16,30 +16,25 @@ use supervisor_terms::{
 #[must_use]
 pub fn vet(envelope: &Envelope, commands: &Commands) -> (Outputs, Verdicts) {
     let mut out = Outputs::NEUTRAL;
-    let gear;
-    (out.gear, gear) = vet_gear(envelope, commands.gear);
-    let brake;
-    (out.brake, brake) = vet_brake(envelope, commands.brake);
-    let retarder;
-    (out.retarder, retarder) = vet_retarder(envelope, &out, commands.retarder);
-    let drive;
-    (out.drive, drive) = vet_drive(envelope, &out, commands.drive);
-    let target_speed;
-    (out.target_speed, target_speed) = vet_target_speed(envelope, commands.target_speed);
-    let epb;
-    (out.epb, epb) = vet_epb(envelope, commands.epb);
-    let steering;
-    (out.steering, steering) = vet_steering(envelope, commands.steering);
-    let contactors;
-    (out.contactors, contactors) = vet_contactors(envelope, &out, commands.contactors);
-    let auxiliaries;
-    (out.auxiliaries, auxiliaries) = vet_auxiliaries(envelope, commands.auxiliaries);
-    let warnings;
-    (out.warnings, warnings) = vet_warnings(envelope, commands.warnings);
-    let body;
-    (out.body, body) = vet_body(envelope, &out, commands.body);
-    let mode;
-    (out.mode, mode) = vet_mode(envelope, commands.mode);
+    macro_rules! channel {
+        ($field:ident, $vetted:expr) => {{
+            let (value, verdict) = $vetted;
+            out.$field = value;
+            verdict
+        }};
+    }
+    let gear = channel!(gear, vet_gear(envelope, commands.gear));
+    let brake = channel!(brake, vet_brake(envelope, commands.brake));
+    let retarder = channel!(retarder, vet_retarder(envelope, &out, commands.retarder));
+    let drive = channel!(drive, vet_drive(envelope, &out, commands.drive));
+    let target_speed = channel!(target_speed, vet_target_speed(envelope, commands.target_speed));
+    let epb = channel!(epb, vet_epb(envelope, commands.epb));
+    let steering = channel!(steering, vet_steering(envelope, commands.steering));
+    let contactors = channel!(contactors, vet_contactors(envelope, &out, commands.contactors));
+    let auxiliaries = channel!(auxiliaries, vet_auxiliaries(envelope, commands.auxiliaries));
+    let warnings = channel!(warnings, vet_warnings(envelope, commands.warnings));
+    let body = channel!(body, vet_body(envelope, &out, commands.body));
+    let mode = channel!(mode, vet_mode(envelope, commands.mode));
     let list =
         [drive, target_speed, brake, retarder, gear, epb, steering, contactors, auxiliaries, warnings, body, mode];
     (out, Verdicts::new(list))
@@ -167,7 +162,6 @@ pub fn vet_drive(envelope: &Envelope, given: &Outputs, command: Command<DriveTor
     let by_driver = wanted.origin == Origin::Driver;
     let mut most = if by_driver { bound.driver } else { bound.automated };
     most.lower_if(!by_driver && !wanted.active, Percent::ZERO, Reason::NotActive);
-    most.lower_if(wanted.origin == Origin::Epbi && wanted.torque < bound.idle, Percent::ZERO, Reason::IdleTorque);
     // TRQ-6: not against the brake, and not while the gear changes.
     let braking = envelope.brake.total(given) > DecelMs2Q11::ZERO;
     most.lower_if(braking && !(bound.hill_hold && by_driver), Percent::ZERO, Reason::BrakeDemand);
@@ -179,6 +173,12 @@ pub fn vet_drive(envelope: &Envelope, given: &Outputs, command: Command<DriveTor
     };
     most.lower_if(!steady, Percent::ZERO, Reason::GearDirection);
 
+    // TRQ-5: what is left of it is no torque below the idle torque.
+    most.lower_if(
+        wanted.origin == Origin::Epbi && wanted.torque.min(most.most) < bound.idle,
+        Percent::ZERO,
+        Reason::IdleTorque,
+    );
     let (torque, pass, cause) = limited(wanted.torque, most);
     // A sender that may not have torque does not keep its active flag either; no torque in a granted mode is coasting.
     let coasts = wanted.torque == Percent::ZERO && envelope.automated.is_ok();

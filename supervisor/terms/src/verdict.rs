@@ -77,6 +77,8 @@ codes! {
         GearDirection = 42,
         /// Slip control at work or unknown: no rise (RSP-1).
         SlipControl = 43,
+        /// An obstacle ahead calls for mitigation: no automated torque towards it (TRQ-2).
+        ObstacleAhead = 45,
         /// Target speed above the limit or above what the mode allows (SPD-1).
         SpeedLimit = 44,
 
@@ -158,6 +160,8 @@ codes! {
         Leave = 8,
         /// Clock fault or safe state.
         Fault = 9,
+        /// A mitigation level has begun: it needs new driver evidence afterwards.
+        Mitigation = 10,
     }
 }
 

@@ -1,0 +1,147 @@
+//! Object lists: complete, or not used.
+
+use supervisor_core::{ClosingCmS, Count, DistanceCm, Millis, OffsetCm, Signal};
+use supervisor_perceive::{CameraObject, Class, PixelBox, RadarObject};
+
+use crate::qualifier::elapsed;
+
+/// An object that comes in parts.
+pub(crate) trait Object: Copy + PartialEq {
+    /// No object.
+    const NONE: Self;
+    /// How many parts.
+    const PARTS: u8;
+    /// Takes over one part.
+    fn merge(&mut self, part: u8, from: &Self);
+}
+
+impl Object for RadarObject {
+    const NONE: Self = Self {
+        distance: DistanceCm::ZERO,
+        offset: OffsetCm::ZERO,
+        closing: ClosingCmS::ZERO,
+        age: Millis::ZERO,
+        updates: Count::ZERO,
+        class: Class::Unmatched,
+    };
+    const PARTS: u8 = 2;
+    fn merge(&mut self, part: u8, from: &Self) {
+        *self = match part {
+            0 => Self { distance: from.distance, offset: from.offset, class: from.class, ..*self },
+            _ => Self { closing: from.closing, age: from.age, updates: from.updates, ..*self },
+        };
+    }
+}
+
+impl Object for CameraObject {
+    const NONE: Self = Self {
+        pixels: PixelBox { left: 0, top: 0, width: 0, height: 0 },
+        class: Class::Unmatched,
+        distance: DistanceCm::ZERO,
+        closing: ClosingCmS::ZERO,
+        age: Millis::ZERO,
+    };
+    const PARTS: u8 = 3;
+    fn merge(&mut self, part: u8, from: &Self) {
+        let (new, old) = (from.pixels, self.pixels);
+        *self = match part {
+            0 => Self { distance: from.distance, closing: from.closing, class: from.class, ..*self },
+            1 => Self { age: from.age, pixels: PixelBox { left: new.left, top: new.top, ..old }, ..*self },
+            _ => Self { pixels: PixelBox { width: new.width, height: new.height, ..old }, ..*self },
+        };
+    }
+}
+
+/// What one frame of a list carries.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Entry<T> {
+    /// Counts the lists.
+    pub cycle: Count,
+    /// Which object.
+    pub index: Count,
+    /// Of how many; unknown if the sensor is out of order.
+    pub length: Signal<Count>,
+    /// The object.
+    pub object: T,
+}
+
+impl<T: Object> Entry<T> {
+    pub(crate) const NONE: Self =
+        Self { cycle: Count::ZERO, index: Count::ZERO, length: Signal::NEVER, object: T::NONE };
+
+    /// The entries of a whole list, at least one.
+    pub(crate) fn list(cycle: Count, known: bool, objects: &[T]) -> impl Iterator<Item = Self> {
+        let objects = if known { objects } else { &[] };
+        let count = u8::try_from(objects.len()).unwrap_or(u8::MAX);
+        let length = if known { Signal::Known(Count::new(count)) } else { Signal::NEVER };
+        (0..count.max(1)).map(move |index| {
+            let object = objects.get(usize::from(index)).copied().unwrap_or(T::NONE);
+            Self { cycle, index: Count::new(index), length, object }
+        })
+    }
+    /// Whether the list is not longer than `longest`, the index lies in it, and an empty list has no object.
+    pub(crate) fn fits(&self, longest: usize) -> bool {
+        let length = self.length.known().unwrap_or(Count::ZERO);
+        let empty = length == Count::ZERO && self.index == Count::ZERO && self.object == T::NONE;
+        usize::from(length.raw()) <= longest && (self.index < length || empty)
+    }
+}
+
+/// A list in the making, and since when the last whole one is in use.
+#[derive(Clone, Debug)]
+pub(crate) struct List<T, const N: usize> {
+    /// A list older than this is not used.
+    timeout: Millis,
+    cycle: Count,
+    length: Signal<Count>,
+    /// When its first frame came; `None` before it, and once the list is complete.
+    began: Option<Millis>,
+    /// Objects so far; per object the parts that are there, one bit each.
+    objects: [(T, u8); N],
+    /// When the list in use was begun.
+    current: Option<Millis>,
+    /// Up to when the ages of the list in use count.
+    aged: Millis,
+}
+
+impl<T: Object, const N: usize> List<T, N> {
+    pub(crate) const fn new(timeout: Millis) -> Self {
+        let Entry { cycle, length, object, .. } = Entry::NONE;
+        let objects = [(object, 0); N];
+        Self { timeout, cycle, length, began: None, objects, current: None, aged: Millis::ZERO }
+    }
+
+    /// Adds a part; the objects, once every part of every object of one list is there. Parts may come in any order.
+    ///
+    /// A frame of another cycle or length begins a new list, and so does one so late that the cycle may have come
+    /// round: what was there is forgotten.
+    pub(crate) fn add(&mut self, now: Millis, part: u8, entry: &Entry<T>) -> Option<impl Iterator<Item = T>> {
+        let same = self.cycle == entry.cycle && self.length == entry.length;
+        let began = self.began.filter(|began| same && elapsed(now, *began) <= self.timeout);
+        if began.is_none() {
+            (self.cycle, self.length, self.objects) = (entry.cycle, entry.length, [(T::NONE, 0); N]);
+        }
+        let began = began.unwrap_or(now);
+        self.began = Some(began);
+        if let Some((object, parts)) = self.objects.get_mut(usize::from(entry.index.raw())) {
+            object.merge(part, &entry.object);
+            *parts |= 1_u8.wrapping_shl(u32::from(part));
+        }
+        let whole = |(_, parts): &(T, u8)| parts.count_ones() == u32::from(T::PARTS);
+        self.current = self.current.filter(|_| self.length.known().is_some());
+        let objects = self.objects.get(..usize::from(self.length.known()?.raw()))?;
+        if !objects.iter().all(whole) {
+            return None;
+        }
+        (self.began, self.current, self.aged) = (None, Some(began), began);
+        Some(objects.iter().map(|(object, _)| *object))
+    }
+    /// Lets the objects in use grow older; whether the list is whole and not older than the time-out.
+    pub(crate) fn known<'a>(&mut self, now: Millis, ages: impl Iterator<Item = &'a mut Millis>) -> bool {
+        let older = elapsed(now, self.aged);
+        ages.for_each(|age| *age = Millis::new(age.raw().saturating_add(older.raw())));
+        self.aged = now;
+        self.current = self.current.filter(|began| elapsed(now, *began) <= self.timeout);
+        self.current.is_some()
+    }
+}
