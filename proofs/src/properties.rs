@@ -2,9 +2,9 @@
 
 use supervisor_core::{
     BrakeMode, Channel, Clock, Command, Commands, Config, Contact, ContactorBound, ContactorRequest, Contactors,
-    DecelMs2Q11, DrivingMode, Envelope, EpbRequest, EpbState, Gear, GearRequest, HighVoltage, Inputs, Key, LastKey,
-    Millis, Origin, Outputs, Parking, ParkingBrake, PedalChain, Percent, Priority, Record, Restart, Seat, SeatState,
-    ServiceBrake, Stage, State, Steering, Timer, Verdicts, Warnings,
+    DecelMs2Q11, DriveTorque, DrivingMode, Envelope, EpbRequest, EpbState, Gear, GearRequest, HighVoltage, Inputs, Key,
+    LastKey, Millis, Origin, Outputs, Parking, ParkingBrake, PedalChain, Percent, Priority, Record, Restart, Seat,
+    SeatState, ServiceBrake, Stage, State, Steering, Timer, Verdicts, Warnings,
 };
 
 /// One cycle, seen from outside.
@@ -308,21 +308,18 @@ pub fn self_2_retarder_sound(envelope: &Envelope, outputs: &Outputs) -> bool {
         )
 }
 
-/// SELF-2 soundness of the drive torque: within its bound, not against the brake but for hill-hold, and only active.
+/// SELF-2 soundness of the drive torque beside a gear and a total deceleration: within its bound, not against the
+/// brake but for hill-hold, and only active.
 #[must_use]
-pub fn self_2_drive_sound(envelope: &Envelope, outputs: &Outputs) -> bool {
-    let drive = &outputs.drive;
+pub fn self_2_drive_sound(envelope: &Envelope, gear: GearRequest, braking: DecelMs2Q11, drive: &DriveTorque) -> bool {
     let by_driver = drive.origin == Origin::Driver;
     let most = if by_driver { envelope.torque.driver.most } else { envelope.torque.automated.most };
     let flows = drive.torque > Percent::ZERO;
     drive.torque <= most
-        && implies(
-            flows && !(envelope.torque.hill_hold && by_driver),
-            envelope.brake.total(outputs) == DecelMs2Q11::ZERO,
-        )
+        && implies(flows && !(envelope.torque.hill_hold && by_driver), braking == DecelMs2Q11::ZERO)
         && implies(flows && !by_driver, drive.active)
         && implies(flows && drive.origin == Origin::Epbi, drive.torque >= envelope.torque.idle)
-        && implies(flows, !matches!(outputs.gear, GearRequest::Neutral | GearRequest::Park))
+        && implies(flows, !matches!(gear, GearRequest::Neutral | GearRequest::Park))
 }
 
 /// SELF-2 soundness of the steering: what acts is inside the window, the overlay and the fade.
@@ -396,7 +393,7 @@ pub fn self_2_warnings_sound(envelope: &Envelope, out: &Warnings) -> bool {
 pub fn self_2_sound(envelope: &Envelope, outputs: &Outputs) -> bool {
     self_2_brake_sound(envelope, &outputs.brake)
         && self_2_retarder_sound(envelope, outputs)
-        && self_2_drive_sound(envelope, outputs)
+        && self_2_drive_sound(envelope, outputs.gear, envelope.brake.total(outputs), &outputs.drive)
         && self_2_steering_sound(envelope, &outputs.steering)
         && self_2_contactors_sound(envelope, &outputs.contactors)
         && self_2_epb_sound(envelope, &outputs.epb)

@@ -15,10 +15,9 @@ impl Any {
     /// The contactors as vetted, any command; the drive torque as vetted for them, whatever the other channels do.
     fn contactors(&self) -> Outputs {
         let others: Outputs = kani::any();
-        let (drive, _) = vet_drive(&self.decided.envelope, &others, kani::any());
-        let given = Outputs { drive, ..others };
-        let (contactors, _) = vet_contactors(&self.decided.envelope, &given, kani::any());
-        Outputs { contactors, ..given }
+        let (drive, _) = vet_drive(&self.decided.envelope, others.gear, kani::any(), kani::any());
+        let (contactors, _) = vet_contactors(&self.decided.envelope, drive.torque, kani::any());
+        Outputs { contactors, drive, ..others }
     }
 }
 

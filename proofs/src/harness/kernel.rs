@@ -44,9 +44,9 @@ fn self_5_safe_state_and_no_torque() {
     let others: Outputs = kani::any();
     let outputs = Outputs {
         gear: vet_gear(envelope, kani::any()).0,
-        drive: vet_drive(envelope, &others, kani::any()).0,
+        drive: vet_drive(envelope, kani::any(), kani::any(), kani::any()).0,
         epb: vet_epb(envelope, kani::any()).0,
-        contactors: vet_contactors(envelope, &others, kani::any()).0,
+        contactors: vet_contactors(envelope, kani::any(), kani::any()).0,
         warnings: vet_warnings(envelope, kani::any()).0,
         mode: vet_mode(envelope, kani::any()).0,
         ..others

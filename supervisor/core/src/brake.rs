@@ -74,22 +74,14 @@ impl Brake {
     }
 
     /// After vetting: what went out, and whether the commands were usable.
-    pub(crate) fn record(
-        self,
-        outputs: &Outputs,
-        bound: &BrakeBound,
-        usable: [bool; 2],
-        ticks: Ticks,
-        config: &Config,
-    ) -> Self {
+    pub(crate) fn record(self, outputs: &Outputs, due: bool, usable: [bool; 2], ticks: Ticks, config: &Config) -> Self {
         let [brake_usable, retarder_usable] = usable;
-        let demanded = bound.lamps_due(outputs, config.lamp_decel);
         Self {
             total: outputs.brake.total,
             retarder: outputs.retarder.torque,
             lost: self.lost.run_while(!brake_usable, ticks.safety),
             retarder_lost: self.retarder_lost.run_while(!retarder_usable, ticks.safety),
-            lamps: if demanded {
+            lamps: if due {
                 config.lamp_delay
             } else {
                 Millis::new(self.lamps.raw().saturating_sub(ticks.permission.raw()))
@@ -161,21 +153,25 @@ impl Brake {
 
 impl BrakeBound {
     /// BODY-1: brake lamps are due by the total deceleration or an obligation.
-    pub(crate) fn lamps_due(&self, outputs: &Outputs, threshold: DecelMs2Q11) -> bool {
-        self.total(outputs) >= threshold || self.floor.most > DecelMs2Q11::ZERO
+    pub(crate) fn lamps_due(&self, braking: DecelMs2Q11, threshold: DecelMs2Q11) -> bool {
+        braking >= threshold || self.floor.most > DecelMs2Q11::ZERO
     }
 
     /// Service brake and retarder together (RET-1).
     #[must_use]
     pub fn total(&self, outputs: &Outputs) -> DecelMs2Q11 {
-        let retarder = self.decel_of(outputs.retarder.torque);
-        DecelMs2Q11::new(outputs.brake.total.raw().saturating_add(retarder.raw()))
+        let retarder = self.retarder_decel.raw().saturating_mul(u16::from(outputs.retarder.torque.raw()));
+        DecelMs2Q11::new(outputs.brake.total.raw().saturating_add(retarder))
     }
 
-    /// Deceleration of a retarder torque, rounded up.
-    pub(crate) fn decel_of(&self, torque: Percent) -> DecelMs2Q11 {
-        let product = u32::from(self.retarder_decel.raw()).saturating_mul(u32::from(torque.raw()));
-        DecelMs2Q11::new(u16::try_from(product.div_ceil(100)).unwrap_or(u16::MAX))
+    /// RET-1, PHB-1: the retarder torque that the cap leaves beside the service brake.
+    #[must_use]
+    pub fn retarder_beside(&self, service: DecelMs2Q11) -> Bound<Percent> {
+        let room = self.cap.most.raw().saturating_sub(service.raw());
+        let share = room.checked_div(self.retarder_decel.raw()).unwrap_or(100).min(100);
+        let mut bound = self.retarder;
+        bound.lower(Percent::new(u8::try_from(share).unwrap_or(100)), self.cap.reason);
+        bound
     }
 }
 

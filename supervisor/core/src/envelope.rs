@@ -85,7 +85,7 @@ bounds! {
         electric: DecelMs2Q11,
         /// Greatest retarder torque.
         retarder: Bound<Percent>,
-        /// Deceleration of the retarder at 100 %.
+        /// Deceleration of the retarder for each per cent.
         retarder_decel: DecelMs2Q11,
     }
     /// Gear.

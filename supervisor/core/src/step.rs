@@ -105,16 +105,12 @@ pub fn record(decided: &Decided, outputs: &Outputs, commands: &Commands, config:
     let usable = [commands.brake.usable(timeouts.ms50).is_ok(), commands.retarder.usable(timeouts.ms100).is_ok()];
     let asked = commands.steering.usable(timeouts.ms50).is_ok_and(|steering| steering.enable);
     let (state, bound) = (decided.state, &decided.envelope.brake);
+    let braking = bound.total(outputs);
+    let due = bound.lamps_due(braking, config.lamp_decel);
     State {
         parking: state.parking.record(outputs),
-        drive: state.drive.record(
-            outputs,
-            bound.total(outputs),
-            commands.drive.usable(timeouts.ms50).ok(),
-            decided.ticks,
-            config,
-        ),
-        brake: state.brake.record(outputs, bound, usable, decided.ticks, config),
+        drive: state.drive.record(outputs, braking, commands.drive.usable(timeouts.ms50).ok(), decided.ticks, config),
+        brake: state.brake.record(outputs, due, usable, decided.ticks, config),
         steering: state.steering.record(outputs, &decided.envelope.steering, asked, decided.ticks, config),
         body: outputs.body,
         ..state

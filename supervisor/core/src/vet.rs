@@ -25,15 +25,17 @@ pub fn vet(envelope: &Envelope, commands: &Commands) -> (Outputs, Verdicts) {
     }
     let gear = channel!(gear, vet_gear(envelope, commands.gear));
     let brake = channel!(brake, vet_brake(envelope, commands.brake));
-    let retarder = channel!(retarder, vet_retarder(envelope, &out, commands.retarder));
-    let drive = channel!(drive, vet_drive(envelope, &out, commands.drive));
+    let beside = envelope.brake.retarder_beside(out.brake.total);
+    let retarder = channel!(retarder, vet_retarder(envelope, beside, commands.retarder));
+    let braking = envelope.brake.total(&out);
+    let drive = channel!(drive, vet_drive(envelope, out.gear, braking, commands.drive));
     let target_speed = channel!(target_speed, vet_target_speed(envelope, commands.target_speed));
     let epb = channel!(epb, vet_epb(envelope, commands.epb));
     let steering = channel!(steering, vet_steering(envelope, commands.steering));
-    let contactors = channel!(contactors, vet_contactors(envelope, &out, commands.contactors));
+    let contactors = channel!(contactors, vet_contactors(envelope, out.drive.torque, commands.contactors));
     let auxiliaries = channel!(auxiliaries, vet_auxiliaries(envelope, commands.auxiliaries));
     let warnings = channel!(warnings, vet_warnings(envelope, commands.warnings));
-    let body = channel!(body, vet_body(envelope, &out, commands.body));
+    let body = channel!(body, vet_body(envelope, braking, commands.body));
     let mode = channel!(mode, vet_mode(envelope, commands.mode));
     let list =
         [drive, target_speed, brake, retarder, gear, epb, steering, contactors, auxiliaries, warnings, body, mode];
@@ -126,9 +128,11 @@ pub fn vet_brake(envelope: &Envelope, command: Command<ServiceBrake>) -> (Servic
     (out, judge(usable, &out, &ServiceBrake::NEUTRAL, pass, cause))
 }
 
-/// RET-1, PHB-1: what the cap leaves beside the service brake.
+/// RET-1, PHB-1: at most what the cap leaves beside the service brake, [`BrakeBound::retarder_beside`].
+///
+/// [`BrakeBound::retarder_beside`]: crate::BrakeBound::retarder_beside
 #[must_use]
-pub fn vet_retarder(envelope: &Envelope, given: &Outputs, command: Command<Retarder>) -> (Retarder, Verdict) {
+pub fn vet_retarder(envelope: &Envelope, most: Bound<Percent>, command: Command<Retarder>) -> (Retarder, Verdict) {
     let bound = &envelope.brake;
     let usable = command.usable(envelope.timeouts.ms100);
     let fallback = Retarder {
@@ -137,10 +141,6 @@ pub fn vet_retarder(envelope: &Envelope, given: &Outputs, command: Command<Retar
         priority: Priority::Low,
     };
     let wanted = usable.unwrap_or(if bound.retarder_fallback > Percent::ZERO { fallback } else { Retarder::NEUTRAL });
-    let room = u32::from(bound.cap.most.raw().saturating_sub(given.brake.total.raw()));
-    let share = room.saturating_mul(100).checked_div(u32::from(bound.retarder_decel.raw())).unwrap_or(100).min(100);
-    let mut most = bound.retarder;
-    most.lower(Percent::new(u8::try_from(share).unwrap_or(100)), bound.cap.reason);
     let (torque, pass, cause) = limited(wanted.torque, most);
     let out = Retarder { torque, ..wanted };
     (out, judge(usable, &out, &Retarder::NEUTRAL, pass, cause))
@@ -153,9 +153,16 @@ fn limited(wanted: Percent, bound: Bound<Percent>) -> (Percent, Verdict, Option<
     (wanted.min(bound.most), pass, cause)
 }
 
-/// TRQ-1 to TRQ-6.
+/// TRQ-1 to TRQ-6: beside the gear that goes out, and the total deceleration ([`BrakeBound::total`]).
+///
+/// [`BrakeBound::total`]: crate::BrakeBound::total
 #[must_use]
-pub fn vet_drive(envelope: &Envelope, given: &Outputs, command: Command<DriveTorque>) -> (DriveTorque, Verdict) {
+pub fn vet_drive(
+    envelope: &Envelope,
+    gear: GearRequest,
+    braking: DecelMs2Q11,
+    command: Command<DriveTorque>,
+) -> (DriveTorque, Verdict) {
     let bound = &envelope.torque;
     let usable = command.usable(envelope.timeouts.ms50);
     let wanted = usable.unwrap_or(DriveTorque::NEUTRAL);
@@ -163,9 +170,8 @@ pub fn vet_drive(envelope: &Envelope, given: &Outputs, command: Command<DriveTor
     let mut most = if by_driver { bound.driver } else { bound.automated };
     most.lower_if(!by_driver && !wanted.active, Percent::ZERO, Reason::NotActive);
     // TRQ-6: not against the brake, and not while the gear changes.
-    let braking = envelope.brake.total(given) > DecelMs2Q11::ZERO;
-    most.lower_if(braking && !(bound.hill_hold && by_driver), Percent::ZERO, Reason::BrakeDemand);
-    let steady = match given.gear {
+    most.lower_if(braking > DecelMs2Q11::ZERO && !(bound.hill_hold && by_driver), Percent::ZERO, Reason::BrakeDemand);
+    let steady = match gear {
         GearRequest::Hold => true,
         GearRequest::Drive => envelope.gear.confirmed == Some(Gear::Drive),
         GearRequest::Reverse => envelope.gear.confirmed == Some(Gear::Reverse),
@@ -293,13 +299,13 @@ pub fn vet_steering(envelope: &Envelope, command: Command<Steering>) -> (Steerin
     (out, judge(usable, &out, &Steering::NEUTRAL, pass, cause))
 }
 
-/// SEAT-7, SEAT-8, HV-1: each contactor against its bound; K4 opens only with our own drive torque at 0.
+/// SEAT-7, SEAT-8, HV-1: each contactor against its bound; K4 opens only beside a drive torque of 0.
 #[must_use]
-pub fn vet_contactors(envelope: &Envelope, given: &Outputs, command: Command<Contactors>) -> (Contactors, Verdict) {
+pub fn vet_contactors(envelope: &Envelope, torque: Percent, command: Command<Contactors>) -> (Contactors, Verdict) {
     let usable = command.usable(envelope.timeouts.ms100);
     let wanted = usable.unwrap_or(Contactors::NEUTRAL);
     let mut k4 = envelope.k4;
-    if given.drive.torque > Percent::ZERO {
+    if torque > Percent::ZERO {
         k4.obliged = false;
         k4.open = k4.open.and(Err(Reason::LoadsNotStopped));
     }
@@ -360,9 +366,9 @@ pub fn vet_warnings(envelope: &Envelope, command: Command<Warnings>) -> (Warning
     (out, judge(usable, &out, &Warnings::NEUTRAL, Verdict::PASS, cause))
 }
 
-/// BODY-1.
+/// BODY-1: beside the total deceleration.
 #[must_use]
-pub fn vet_body(envelope: &Envelope, given: &Outputs, command: Command<Body>) -> (Body, Verdict) {
+pub fn vet_body(envelope: &Envelope, braking: DecelMs2Q11, command: Command<Body>) -> (Body, Verdict) {
     let usable = command.usable(envelope.timeouts.ms200);
     // A lost command keeps what it was (E2E-2), but for the horn.
     let wanted = usable.unwrap_or(Body { horn: false, brake_lamps: false, ..envelope.body_fallback });
@@ -372,7 +378,7 @@ pub fn vet_body(envelope: &Envelope, given: &Outputs, command: Command<Body>) ->
         (out.indicator_left, out.indicator_right) = (false, false);
         cause = (out != wanted).then(|| Verdict::fact(Kind::Limit, Reason::HazardFlashers, 1, 0));
     }
-    if envelope.lamps_delayed || envelope.brake.lamps_due(given, envelope.lamp_decel) {
+    if envelope.lamps_delayed || envelope.brake.lamps_due(braking, envelope.lamp_decel) {
         cause = if out.brake_lamps { cause } else { Some(Verdict::fact(Kind::Substitute, Reason::BrakeLamps, 0, 1)) };
         out.brake_lamps = true;
     }

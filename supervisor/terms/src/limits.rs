@@ -230,8 +230,8 @@ limits! {
     pedal_decel: DecelMs2Q11 = [12288], 6144..=20480, "1/2048 m/s²", "own (6 m/s²)", "TRQ-3";
     /// Deceleration that goes with no pedal at all: drag.
     drag_decel: DecelMs2Q11 = [2048], 0..=4096, "1/2048 m/s²", "own (1 m/s²)", "TRQ-3";
-    /// Deceleration of the retarder at 100 %.
-    retarder_decel: DecelMs2Q11 = [3072], 0..=8192, "1/2048 m/s²", "own (1.5 m/s²)", "RET-1";
+    /// Deceleration of the retarder for each per cent.
+    retarder_decel: DecelMs2Q11 = [31], 0..=82, "1/2048 m/s² per %", "own (1.5 m/s² at 100 %)", "RET-1";
     /// A lost brake request holds this long.
     brake_hold: Millis = [500], 0..=1000, "ms", "own", "E2E-2";
     /// Then it falls by this much per second.

@@ -2,6 +2,7 @@
 
 /// A CAN frame with a 29-bit identifier.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(kani, derive(kani::Arbitrary))]
 pub struct Frame {
     /// Identifier, 29 bits.
     pub id: u32,

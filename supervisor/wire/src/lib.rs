@@ -24,6 +24,9 @@
     clippy::integer_division_remainder_used
 )]
 
+#[cfg(kani)]
+extern crate kani;
+
 mod coding;
 mod frame;
 mod link;

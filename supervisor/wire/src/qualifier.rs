@@ -4,6 +4,7 @@ use supervisor_core::{Cause, Millis};
 
 /// The times of one message.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(kani, derive(kani::Arbitrary))]
 pub struct Timing {
     /// Silent for longer than this is a gap.
     pub timeout: Millis,
@@ -17,6 +18,7 @@ pub struct Timing {
 /// frame while requalifying, and the very start call for requalification. At the start no gap was seen, but an ECU
 /// that has just started sends wrong content too (0.64 s in the recorded log), so it counts as one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(kani, derive(kani::Arbitrary))]
 pub struct Qualifier {
     phase: Phase,
     /// Of the last good frame; while failed unqualified, of the last failed one.
@@ -26,6 +28,7 @@ pub struct Qualifier {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(kani, derive(kani::Arbitrary))]
 enum Phase {
     Never,
     Stale,
