@@ -22,6 +22,7 @@ mod limits;
 mod sealed;
 mod threat;
 mod units;
+mod unknown;
 mod verdict;
 #[doc(hidden)]
 pub mod word;
@@ -41,5 +42,6 @@ pub use units::{
     AngleDeciDeg, BarTorque50mNm, ClosingCmS, Count, CurrentDeciA, DecelMs2Q11, DistanceCm, Millis, OffsetCm, Pedal250,
     Percent, PercentPerS, RateDeciDegS, Rest, SpeedKmhQ8, Timer, TorqueNmQ10,
 };
+pub use unknown::{Group, Meaning, meaning};
 pub use verdict::{ExitReason, Faults, Kind, Reason, Verdict, Verdicts};
 pub use word::{Word, Words};

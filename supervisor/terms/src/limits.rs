@@ -138,161 +138,161 @@ limits! {
 
     // Speed (rule 6)
     /// Greatest difference of the two speeds, absolute.
-    speed_agree: SpeedKmhQ8 = [512], 128..=1280, "1/256 km/h", "own", "RULE-6";
+    speed_agree: SpeedKmhQ8 = [512], 128..=1280, "1/256 km/h", "own", "RULE-6c";
     /// Greatest difference of the two speeds, relative; the greater of both counts.
-    speed_agree_percent: Percent = [5], 1..=20, "%", "own", "RULE-6";
+    speed_agree_percent: Percent = [5], 1..=20, "%", "own", "RULE-6c";
     /// Standstill is below this.
-    standstill_speed: SpeedKmhQ8 = [77], 26..=256, "1/256 km/h", "own (0.3 km/h)", "R-e";
+    standstill_speed: SpeedKmhQ8 = [77], 26..=256, "1/256 km/h", "own (0.3 km/h)", "SEAT-7b";
 
     // Seat and parking brake (S3)
     /// Both sensors occupied for this long is *confirmed occupied*.
-    seat_confirm: Millis = [1000], 200..=5000, "ms", "own", "SEAT-5";
+    seat_confirm: Millis = [1000], 200..=5000, "ms", "own", "SEAT-0a";
     /// Both sensors vacant for this long is *leave*.
-    seat_vacant: Millis = [2000], 500..=5000, "ms", "S3 §2.1", "SEAT-1";
+    seat_vacant: Millis = [2000], 500..=5000, "ms", "S3 §2.1", "SEAT-1a";
     /// Unknown sensors freeze the vacancy this long, then reset it.
-    seat_freeze: Millis = [500], 100..=580, "ms", "own", "SEAT-1";
+    seat_freeze: Millis = [500], 100..=580, "ms", "own", "SEAT-1f";
     /// Below this the parking brake is applied in leave, and may be applied otherwise.
-    epb_speed: SpeedKmhQ8 = [384], 128..=512, "1/256 km/h", "S3 §2.4 (1.5 km/h)", "SEAT-4";
+    epb_speed: SpeedKmhQ8 = [384], 128..=512, "1/256 km/h", "S3 §2.4 (1.5 km/h)", "SEAT-4a";
     /// An apply that is not confirmed in this time is reported.
-    epb_confirm: Millis = [2000], 500..=5000, "ms", "own", "SEAT-4";
+    epb_confirm: Millis = [2000], 500..=5000, "ms", "own", "SEAT-4c";
     /// Unknown speed for this long in leave: the parking brake is applied.
-    epb_speedless: Millis = [20000], 5000..=60000, "ms", "own", "SEAT-3";
+    epb_speedless: Millis = [20000], 5000..=60000, "ms", "own", "SEAT-3f";
     /// Deceleration in leave at 0, 2, 4, 6, 8, 10, 15, 20, ... 60 km/h.
     leave_decel: Row<DecelMs2Q11, 16> = [0, 2765, 2868, 2970, 3072, 3175, 3277, 3380, 3482, 3544, 3605, 3687, 3789, 3994, 4096, 4506],
-        0..=12288, "1/2048 m/s²", "S3 table 1", "SEAT-3";
+        0..=12288, "1/2048 m/s²", "S3 table 1", "SEAT-3a";
     /// Deceleration that holds the bus: in leave below `leave_hold_speed`, and where speed is unknown.
-    leave_hold: DecelMs2Q11 = [2765], 1024..=6144, "1/2048 m/s²", "S3 table 1 at 2 km/h (1.35 m/s²)", "SEAT-3";
+    leave_hold: DecelMs2Q11 = [2765], 1024..=6144, "1/2048 m/s²", "S3 table 1 at 2 km/h (1.35 m/s²)", "SEAT-3d";
     /// Below this speed `leave_hold` holds until the parking brake is confirmed.
-    leave_hold_speed: SpeedKmhQ8 = [512], 256..=1280, "1/256 km/h", "own (S3 table 1, second point)", "SEAT-3";
+    leave_hold_speed: SpeedKmhQ8 = [512], 256..=1280, "1/256 km/h", "own (S3 table 1, second point)", "SEAT-3d";
     /// After boot, how long to wait for the seat to be known.
-    boot_settle: Millis = [4000], 2000..=20000, "ms", "own", "SELF-9";
+    boot_settle: Millis = [4000], 2000..=20000, "ms", "own", "SELF-9d";
 
     // High voltage (S3 §2.6)
     /// Parked by leave for this long: high voltage is shut down.
-    shutdown_after: Millis = [600_000], 60_000..=3_600_000, "ms", "S3 §2.6 (10 min)", "SEAT-7";
+    shutdown_after: Millis = [600_000], 60_000..=3_600_000, "ms", "S3 §2.6 (10 min)", "SEAT-7a";
     /// K4 is confirmed open in this time, or it is reported.
-    k4_deadline: Millis = [2000], 200..=5000, "ms", "own", "SEAT-7";
+    k4_deadline: Millis = [2000], 200..=5000, "ms", "own", "SEAT-7h";
     /// Loads stopped and K1 confirmed open in this time, or it is reported.
-    k1_deadline: Millis = [10000], 1000..=50000, "ms", "own", "SEAT-7";
+    k1_deadline: Millis = [10000], 1000..=50000, "ms", "own", "SEAT-7h";
     /// A current of no more than this is "stopped".
-    stopped_current: CurrentDeciA = [20], 0..=100, "0.1 A", "own", "SEAT-7";
+    stopped_current: CurrentDeciA = [20], 0..=100, "0.1 A", "own", "SEAT-7g";
     /// A torque of no more than this is "no drive torque".
-    stopped_torque: Percent = [1], 0..=2, "%", "own", "SEAT-7";
+    stopped_torque: Percent = [1], 0..=2, "%", "own", "SEAT-7d";
 
     // Collision (S1 §3.1.2)
     /// Levels 1, 2, 3 enter below (1) or at (2, 3) this time to collision.
-    level_ttc: Row<Millis, 3> = [4400, 3600, 2700], 1000..=10000, "ms", "S1 §3.1.2 (3)–(5)", "MIT-1";
+    level_ttc: Row<Millis, 3> = [4400, 3600, 2700], 1000..=10000, "ms", "S1 §3.1.2 (3)–(5)", "MIT-1a";
     /// Levels 1, 2, 3 enter while the steering angle is below this.
-    level_angle: Row<AngleDeciDeg, 3> = [600, 700, 800], 100..=1800, "0.1°", "S1 §3.1.2 (3)–(5)", "MIT-1";
+    level_angle: Row<AngleDeciDeg, 3> = [600, 700, 800], 100..=1800, "0.1°", "S1 §3.1.2 (3)–(5)", "MIT-1a";
     /// Levels 1 and 2 end at once when the driver steers beyond this.
-    level_exit_angle: Row<AngleDeciDeg, 2> = [800, 900], 100..=1800, "0.1°", "S1 §3.1.2 (3), (4)", "MIT-4";
+    level_exit_angle: Row<AngleDeciDeg, 2> = [800, 900], 100..=1800, "0.1°", "S1 §3.1.2 (3), (4)", "MIT-4e";
     /// Deceleration of levels 1, 2, 3.
-    level_decel: Row<DecelMs2Q11, 3> = [2048, 5120, 10240], 1024..=12288, "1/2048 m/s²", "S1 §3.1.2 (3)–(5)", "MIT-1";
+    level_decel: Row<DecelMs2Q11, 3> = [2048, 5120, 10240], 1024..=12288, "1/2048 m/s²", "S1 §3.1.2 (3)–(5)", "MIT-1b";
     /// Levels 1 and 2 end when nothing has been closing for this long.
-    level_gone: Millis = [500], 100..=2000, "ms", "own", "MIT-4";
+    level_gone: Millis = [500], 100..=2000, "ms", "own", "MIT-4d";
     /// All levels end this long after continuous standstill.
-    level_standstill: Millis = [1000], 500..=5000, "ms", "S1 §3.1.2 (5)", "MIT-4";
+    level_standstill: Millis = [1000], 500..=5000, "ms", "S1 §3.1.2 (5)", "MIT-4h";
     /// Unknown speed for this long ends a level; `leave_hold` follows.
-    level_speedless: Millis = [10000], 2000..=30000, "ms", "own", "MIT-7";
+    level_speedless: Millis = [10000], 2000..=30000, "ms", "own", "MIT-7b";
     /// Nothing is obliged below this own speed.
-    level_least_speed: SpeedKmhQ8 = [2560], 512..=5120, "1/256 km/h", "own (10 km/h)", "MIT-6";
+    level_least_speed: SpeedKmhQ8 = [2560], 512..=5120, "1/256 km/h", "own (10 km/h)", "MIT-6b";
     /// Forward-collision warning: on below, off above.
-    forward_ttc: Row<Millis, 2> = [4000, 4500], 1000..=10000, "ms", "S1 §3.1.2 (1)", "FCW-1";
+    forward_ttc: Row<Millis, 2> = [4000, 4500], 1000..=10000, "ms", "S1 §3.1.2 (1)", "FCW-1a";
     /// Forward-collision warning: lateral offset.
-    forward_offset: OffsetCm = [180], 100..=400, "cm", "S1 §3.1.2 (1), reading a", "FCW-1";
+    forward_offset: OffsetCm = [180], 100..=400, "cm", "S1 §3.1.2 (1), reading a", "FCW-1a";
     /// Pedestrian-collision warning: on below, off above.
-    pedestrian_ttc: Row<Millis, 2> = [4200, 4500], 1000..=10000, "ms", "S1 §3.1.2 (2)", "PCW-1";
+    pedestrian_ttc: Row<Millis, 2> = [4200, 4500], 1000..=10000, "ms", "S1 §3.1.2 (2)", "PCW-1a";
     /// Pedestrian-collision warning: lateral offset.
-    pedestrian_offset: OffsetCm = [200], 100..=400, "cm", "S1 §3.1.2 (2), reading a", "PCW-1";
+    pedestrian_offset: OffsetCm = [200], 100..=400, "cm", "S1 §3.1.2 (2), reading a", "PCW-1a";
     /// Half-width of the corridor.
-    corridor: OffsetCm = [160], 130..=250, "cm", "own (half of 2.55 m and a margin)", "FUS-3";
+    corridor: OffsetCm = [160], 130..=250, "cm", "own (half of 2.55 m and a margin)", "FUS-3e";
     /// A measured deceleration beyond this is not plausible.
-    decel_plausible: DecelMs2Q11 = [20480], 12288..=40960, "1/2048 m/s²", "own (10 m/s²)", "MIT-6";
+    decel_plausible: DecelMs2Q11 = [20480], 12288..=40960, "1/2048 m/s²", "own (10 m/s²)", "MIT-6c";
     /// Gap that shall remain.
-    gap_margin: DistanceCm = [100], 0..=500, "cm", "own", "MIT-6";
+    gap_margin: DistanceCm = [100], 0..=500, "cm", "own", "MIT-6c";
     /// The same radar object in this many updates is consistent.
-    consistent_updates: Count = [3], 2..=10, "updates", "own", "FUS-3";
+    consistent_updates: Count = [3], 2..=10, "updates", "own", "FUS-3c";
     /// Object data older than this are lost.
-    object_age: Millis = [250], 50..=500, "ms", "own", "MIT-7";
+    object_age: Millis = [250], 50..=500, "ms", "own", "MIT-7a";
     /// An object nearer in time than this permits the full cap.
-    emergency_ttc: Millis = [3200], 2700..=5000, "ms", "own", "PHB-1";
+    emergency_ttc: Millis = [3200], 2700..=5000, "ms", "own", "PHB-1b";
     /// An object nearer in time than this permits mitigation of any level.
-    mitigable_ttc: Millis = [6000], 4400..=20000, "ms", "own", "TRQ-3";
+    mitigable_ttc: Millis = [6000], 4400..=20000, "ms", "own", "TRQ-3b";
     /// Second opinion: a deceleration needed beyond this is severe.
-    severe_decel: DecelMs2Q11 = [7168], 2048..=12288, "1/2048 m/s²", "own (the comfort cap)", "MIT-8";
+    severe_decel: DecelMs2Q11 = [7168], 2048..=12288, "1/2048 m/s²", "own (the comfort cap)", "MIT-8a";
 
     // Braking (PHB-1, TRQ-3, E2E-2, BODY-1)
     /// Greatest total deceleration without a hazard: standing passengers.
-    comfort_cap: DecelMs2Q11 = [7168], 2048..=12288, "1/2048 m/s²", "own (3.5 m/s²)", "PHB-1";
+    comfort_cap: DecelMs2Q11 = [7168], 2048..=12288, "1/2048 m/s²", "own (3.5 m/s²)", "PHB-1a";
     /// Greatest total deceleration.
-    brake_cap: DecelMs2Q11 = [12288], 10240..=20480, "1/2048 m/s²", "S4 table 3 (6 m/s²), reading j", "PHB-1";
+    brake_cap: DecelMs2Q11 = [12288], 10240..=20480, "1/2048 m/s²", "S4 table 3 (6 m/s²), reading j", "PHB-1b";
     /// Deceleration that goes with the full brake pedal.
-    pedal_decel: DecelMs2Q11 = [12288], 6144..=20480, "1/2048 m/s²", "own (6 m/s²)", "TRQ-3";
+    pedal_decel: DecelMs2Q11 = [12288], 6144..=20480, "1/2048 m/s²", "own (6 m/s²)", "PHB-1c";
     /// Deceleration that goes with no pedal at all: drag.
-    drag_decel: DecelMs2Q11 = [2048], 0..=4096, "1/2048 m/s²", "own (1 m/s²)", "TRQ-3";
+    drag_decel: DecelMs2Q11 = [2048], 0..=4096, "1/2048 m/s²", "own (1 m/s²)", "TRQ-3b";
     /// Deceleration of the retarder for each per cent.
-    retarder_decel: DecelMs2Q11 = [31], 0..=82, "1/2048 m/s² per %", "own (1.5 m/s² at 100 %)", "RET-1";
+    retarder_decel: DecelMs2Q11 = [31], 0..=82, "1/2048 m/s² per %", "own (1.5 m/s² at 100 %)", "RET-1a";
     /// A lost brake request holds this long.
-    brake_hold: Millis = [500], 0..=1000, "ms", "own", "E2E-2";
+    brake_hold: Millis = [500], 0..=1000, "ms", "own", "E2E-2c";
     /// Then it falls by this much per second.
-    brake_ramp: DecelMs2Q11 = [4096], 1024..=20480, "1/2048 m/s² per s", "own (2 m/s³)", "E2E-2";
+    brake_ramp: DecelMs2Q11 = [4096], 1024..=20480, "1/2048 m/s² per s", "own (2 m/s³)", "E2E-2d";
     /// Brake lamps are on from this total deceleration.
-    lamp_decel: DecelMs2Q11 = [1433], 512..=2662, "1/2048 m/s²", "own (0.7 m/s²)", "BODY-1";
+    lamp_decel: DecelMs2Q11 = [1433], 512..=2662, "1/2048 m/s²", "own (0.7 m/s²)", "BODY-1a";
     /// Brake lamps go off after this delay.
-    lamp_delay: Millis = [300], 0..=1000, "ms", "own", "BODY-1";
+    lamp_delay: Millis = [300], 0..=1000, "ms", "own", "BODY-1c";
 
     // Drive (S2)
     /// Drive torque that goes with 0, 10, ... 100 % accelerator.
-    pedal_map: Row<Percent, 11> = [0, 10, 20, 30, 40, 50, 60, 70, 80, 90, 100], 0..=100, "%", "own", "TRQ-1";
+    pedal_map: Row<Percent, 11> = [0, 10, 20, 30, 40, 50, 60, 70, 80, 90, 100], 0..=100, "%", "own", "TRQ-1a";
     /// Tolerance of the map.
-    pedal_tolerance: Percent = [5], 0..=20, "%", "own", "TRQ-1";
+    pedal_tolerance: Percent = [5], 0..=20, "%", "own", "TRQ-1a";
     /// Greatest difference of two pedal tracks.
-    pedal_agree: Pedal250 = [13], 2..=50, "0.4 %", "own (5 %)", "TRQ-1";
+    pedal_agree: Pedal250 = [13], 2..=50, "0.4 %", "own (5 %)", "TRQ-1b";
     /// A pedal beyond this is pressed.
-    pedal_pressed: Pedal250 = [10], 3..=50, "0.4 %", "own (4 %)", "TRQ-1";
+    pedal_pressed: Pedal250 = [10], 3..=50, "0.4 %", "own (4 %)", "TRQ-1c";
     /// MinTorq: without positive ADAS torque, an accelerator beyond this overrides.
-    override_least: Pedal250 = [20], 3..=100, "0.4 %", "S2 §2 2) names it, value own (8 %)", "TRQ-4";
+    override_least: Pedal250 = [20], 3..=100, "0.4 %", "S2 §2 2) names it, value own (8 %)", "TRQ-4a";
     /// Offset: with positive ADAS torque, an accelerator beyond torque + this overrides.
-    override_offset: Percent = [10], 1..=50, "%", "S2 §2 2) names it, value own", "TRQ-4";
+    override_offset: Percent = [10], 1..=50, "%", "S2 §2 2) names it, value own", "TRQ-4b";
     /// Greatest torque of ADAS or EPBi: our acceleration bound.
-    automated_torque: Percent = [60], 10..=100, "%", "own", "TRQ-2";
+    automated_torque: Percent = [60], 10..=100, "%", "own", "TRQ-2e";
     /// Idle torque: EPBi torque below it is none.
-    idle_torque: Percent = [6], 0..=20, "%", "S2 §1 names it, S4 table 2 (6 %)", "TRQ-5";
+    idle_torque: Percent = [6], 0..=20, "%", "S2 §1 names it, S4 table 2 (6 %)", "TRQ-5f";
     /// Torque may rise by this much per second.
-    torque_ramp: PercentPerS = [200], 100..=1000, "% per s", "own", "TRQ-5";
+    torque_ramp: PercentPerS = [200], 100..=1000, "% per s", "own", "TRQ-5b";
     /// Hill-hold: torque against the brake for at most this long.
-    hill_hold: Millis = [1000], 0..=2000, "ms", "own", "TRQ-6";
+    hill_hold: Millis = [1000], 0..=2000, "ms", "own", "TRQ-6b";
     /// Hill-hold: below this speed.
-    hill_hold_speed: SpeedKmhQ8 = [512], 77..=1280, "1/256 km/h", "own (2 km/h)", "TRQ-6";
+    hill_hold_speed: SpeedKmhQ8 = [512], 77..=1280, "1/256 km/h", "own (2 km/h)", "TRQ-6b";
     /// Greatest target speed.
-    speed_limit: SpeedKmhQ8 = [15360], 2560..=25600, "1/256 km/h", "S3 §2.3 (60 km/h)", "SPD-1";
+    speed_limit: SpeedKmhQ8 = [15360], 2560..=25600, "1/256 km/h", "S3 §2.3 (60 km/h)", "SPD-1a";
 
     /// A mode that ended for a reason that the driver did not give is noticed this long.
-    notice_time: Millis = [5000], 1000..=30000, "ms", "own", "MODE-1";
+    notice_time: Millis = [5000], 1000..=30000, "ms", "own", "MODE-1f";
 
     // Steering (S4 6.3)
     /// Steering-wheel angles lie within this, either way.
-    steering_range: AngleDeciDeg = [7200], 7200..=7200, "0.1°", "S4 table 4 (±720°)", "STR-1";
+    steering_range: AngleDeciDeg = [7200], 7200..=7200, "0.1°", "S4 table 4 (±720°)", "STR-1a";
     /// Greatest angle up to 10, 20, 30, 40, 60, 80 km/h, and above: about 3 m/s² lateral.
-    steering_angle: Row<AngleDeciDeg, 7> = [7200, 6670, 2970, 1670, 740, 410, 260], 0..=7200, "0.1°", "S4 table 4 (±720°), own", "STR-1";
+    steering_angle: Row<AngleDeciDeg, 7> = [7200, 6670, 2970, 1670, 740, 410, 260], 0..=7200, "0.1°", "S4 table 4 (±720°), own", "STR-1b";
     /// Greatest rate up to the same speeds.
-    steering_rate: Row<RateDeciDegS, 7> = [4000, 3200, 1600, 800, 400, 200, 130], 100..=8000, "0.1°/s", "S4 table 4 (320°/s), own", "STR-1";
+    steering_rate: Row<RateDeciDegS, 7> = [4000, 3200, 1600, 800, 400, 200, 130], 100..=8000, "0.1°/s", "S4 table 4 (320°/s), own", "STR-1c";
     /// Greatest deviation of the target from the measured angle.
-    steering_deviation: AngleDeciDeg = [450], 100..=1800, "0.1°", "own", "STR-1";
+    steering_deviation: AngleDeciDeg = [450], 100..=1800, "0.1°", "own", "STR-1d";
     /// Greatest overlay torque.
-    steering_overlay: TorqueNmQ10 = [5120], 0..=6143, "1/1024 Nm", "own (5 Nm, below the takeover torque)", "STR-1";
+    steering_overlay: TorqueNmQ10 = [5120], 0..=6143, "1/1024 Nm", "own (5 Nm, below the takeover torque)", "STR-1e";
     /// Greatest limit of the overlaid bar torque.
-    steering_bar: BarTorque50mNm = [100], 0..=119, "0.05 Nm", "own (5 Nm)", "STR-1";
+    steering_bar: BarTorque50mNm = [100], 0..=119, "0.05 Nm", "own (5 Nm)", "STR-1f";
     /// A driver's torque beyond this takes over.
-    takeover_torque: TorqueNmQ10 = [6144], 2048..=10240, "1/1024 Nm", "S4 6.3.4 (6 Nm)", "STR-2";
+    takeover_torque: TorqueNmQ10 = [6144], 2048..=10240, "1/1024 Nm", "S4 6.3.4 (6 Nm)", "STR-2a";
     /// After this long.
-    takeover_time: Millis = [300], 50..=580, "ms", "S4 6.3.4", "STR-2";
+    takeover_time: Millis = [300], 50..=580, "ms", "S4 6.3.4", "STR-2a";
     /// The steering torque fades in and out by this much per second.
-    steering_fade: PercentPerS = [100], 100..=1000, "% per s", "own", "STR-2";
+    steering_fade: PercentPerS = [100], 100..=1000, "% per s", "own", "STR-2c";
     /// Automatic steering, lowest speed.
-    steering_speed_least: SpeedKmhQ8 = [0], 0..=25600, "1/256 km/h", "S4 6.3.2, own", "STR-2";
+    steering_speed_least: SpeedKmhQ8 = [0], 0..=25600, "1/256 km/h", "S4 6.3.2, own", "STR-2e";
     /// Automatic steering, highest speed.
-    steering_speed_greatest: SpeedKmhQ8 = [15360], 2560..=65535, "1/256 km/h", "S4 6.3.2, own (60 km/h)", "STR-2";
+    steering_speed_greatest: SpeedKmhQ8 = [15360], 2560..=65535, "1/256 km/h", "S4 6.3.2, own (60 km/h)", "STR-2e";
 }
 
 fn rising<T: PartialOrd + Copy>(values: &[T]) -> bool {
