@@ -311,13 +311,23 @@ pub fn self_2_retarder_sound(envelope: &Envelope, outputs: &Outputs) -> bool {
 /// SELF-2 soundness of the drive torque beside a gear and a total deceleration: within its bound, not against the
 /// brake but for hill-hold, and only active.
 #[must_use]
-pub fn self_2_drive_sound(envelope: &Envelope, gear: GearRequest, braking: DecelMs2Q11, drive: &DriveTorque) -> bool {
+pub fn self_2_drive_sound(
+    envelope: &Envelope,
+    mode: DrivingMode,
+    gear: GearRequest,
+    braking: DecelMs2Q11,
+    drive: &DriveTorque,
+) -> bool {
     let by_driver = drive.origin == Origin::Driver;
-    let most = if by_driver { envelope.torque.driver.most } else { envelope.torque.automated.most };
+    let most = match drive.origin {
+        Origin::Driver => envelope.torque.driver.most,
+        Origin::Adas => envelope.torque.automated.most,
+        Origin::Epbi => envelope.torque.epbi.most,
+    };
     let flows = drive.torque > Percent::ZERO;
     drive.torque <= most
         && implies(flows && !(envelope.torque.hill_hold && by_driver), braking == DecelMs2Q11::ZERO)
-        && implies(flows && !by_driver, drive.active)
+        && implies(flows && !by_driver, drive.active && mode == DrivingMode::Automated)
         && implies(flows && drive.origin == Origin::Epbi, drive.torque >= envelope.torque.idle)
         && implies(flows, !matches!(gear, GearRequest::Neutral | GearRequest::Park))
 }
@@ -331,7 +341,8 @@ pub fn self_2_steering_sound(envelope: &Envelope, out: &Steering) -> bool {
         out.angle >= bound.angle_least
             && out.angle <= bound.angle_most
             && out.rate <= bound.rate
-            && out.overlay.raw().unsigned_abs() <= bound.overlay.raw().unsigned_abs()
+            && out.overlay >= bound.overlay_least
+            && out.overlay <= bound.overlay_most
             && out.weight >= bound.weight_least
             && out.weight <= bound.weight_most
             && out.bar_limit <= bound.bar,
@@ -393,7 +404,7 @@ pub fn self_2_warnings_sound(envelope: &Envelope, out: &Warnings) -> bool {
 pub fn self_2_sound(envelope: &Envelope, outputs: &Outputs) -> bool {
     self_2_brake_sound(envelope, &outputs.brake)
         && self_2_retarder_sound(envelope, outputs)
-        && self_2_drive_sound(envelope, outputs.gear, envelope.brake.total(outputs), &outputs.drive)
+        && self_2_drive_sound(envelope, outputs.mode, outputs.gear, envelope.brake.total(outputs), &outputs.drive)
         && self_2_steering_sound(envelope, &outputs.steering)
         && self_2_contactors_sound(envelope, &outputs.contactors)
         && self_2_epb_sound(envelope, &outputs.epb)

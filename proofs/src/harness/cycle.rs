@@ -15,7 +15,7 @@ impl Any {
     /// The contactors as vetted, any command; the drive torque as vetted for them, whatever the other channels do.
     fn contactors(&self) -> Outputs {
         let others: Outputs = kani::any();
-        let (drive, _) = vet_drive(&self.decided.envelope, others.gear, kani::any(), kani::any());
+        let (drive, _) = vet_drive(&self.decided.envelope, kani::any(), others.gear, kani::any(), kani::any());
         let (contactors, _) = vet_contactors(&self.decided.envelope, drive.torque, kani::any());
         Outputs { contactors, drive, ..others }
     }

@@ -73,10 +73,11 @@ fn phb_1_total_below_cap() {
 /// SELF-2, TRQ-6: drive torque.
 #[kani::proof]
 fn self_2_drive() {
-    let (envelope, command, gear, braking) = (any_envelope(), kani::any(), kani::any(), kani::any());
-    let vetted = vet_drive(&envelope, gear, braking, command);
-    assert!(self_2_drive_sound(&envelope, gear, braking, &vetted.0));
-    holds(command, envelope.timeouts.ms50, vetted, vet_drive(&envelope, gear, braking, Command::Fresh(vetted.0)));
+    let (envelope, command, mode) = (any_envelope(), kani::any(), kani::any());
+    let (gear, braking) = (kani::any(), kani::any());
+    let vetted = vet_drive(&envelope, mode, gear, braking, command);
+    assert!(self_2_drive_sound(&envelope, mode, gear, braking, &vetted.0));
+    holds(command, envelope.timeouts.ms50, vetted, vet_drive(&envelope, mode, gear, braking, Command::Fresh(vetted.0)));
 }
 
 /// SELF-2, STR-1: steering.
@@ -109,10 +110,11 @@ fn self_2_gear_epb_contactors() {
 #[kani::proof]
 fn self_2_other_channels() {
     let (envelope, braking, commands): (_, _, Commands) = (any_envelope(), kani::any(), kani::any());
+    let given = kani::any();
     let timeouts = envelope.timeouts;
-    let speed = vet_target_speed(&envelope, commands.target_speed);
+    let speed = vet_target_speed(&envelope, given, commands.target_speed);
     assert!(speed.0 <= envelope.target_speed.most);
-    holds(commands.target_speed, timeouts.ms50, speed, vet_target_speed(&envelope, Command::Fresh(speed.0)));
+    holds(commands.target_speed, timeouts.ms50, speed, vet_target_speed(&envelope, given, Command::Fresh(speed.0)));
     let auxiliaries = vet_auxiliaries(&envelope, commands.auxiliaries);
     let again = vet_auxiliaries(&envelope, Command::Fresh(auxiliaries.0));
     holds(commands.auxiliaries, timeouts.ms200, auxiliaries, again);

@@ -8,24 +8,6 @@ use supervisor_terms::word::{codes, retained};
 use supervisor_terms::{Config, EpbState, Inputs, Timer};
 
 codes! {
-    /// Why the supervisor starts.
-    ResetCause {
-        /// Power was switched on (key-on).
-        PowerOn = 0,
-        /// The watchdog.
-        Watchdog = 1,
-        /// Anything else: brown-out, software, unknown.
-        Other = 2,
-    }
-    /// What was persisted, protected by the integrator's CRC.
-    Record {
-        /// Nothing.
-        None = 0,
-        /// In leave, or parked by leave.
-        Leave = 1,
-        /// High voltage is being, or was, shut down after leave.
-        HighVoltageDown = 2,
-    }
     /// Whether the boot rule still waits for seat and parking brake.
     Pending {
         /// Settled.

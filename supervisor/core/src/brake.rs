@@ -1,14 +1,13 @@
 //! How much must the bus brake, and how much may it? (SEAT-3, MIT, PHB-1, TRQ-3, TRQ-4, E2E-2, RET-1, VLC-2)
 
 use crate::clock::Ticks;
-use crate::drive::Mode;
 use crate::envelope::{Bound, BrakeBound};
 use crate::evidence::{BrakePedal, Evidence, SeatView};
 use crate::mitigation::Mitigation;
 
 use supervisor_terms::word::retained;
 use supervisor_terms::{
-    Config, DecelMs2Q11, EpbState, Inputs, Millis, Outputs, Pedal250, Percent, Reason, SpeedKmhQ8, Threat, Timer,
+    Config, DecelMs2Q11, EpbState, Inputs, Millis, Mode, Outputs, Pedal250, Percent, Reason, SpeedKmhQ8, Threat, Timer,
 };
 
 retained! {
@@ -22,6 +21,8 @@ retained! {
         lost: Timer = Timer::STOPPED,
         /// The retarder command is lost.
         retarder_lost: Timer = Timer::STOPPED,
+        /// The last known speed was below that at which the bus is held (SELF-5, rule 1).
+        slow: bool = false,
         /// Last demand of leave (SEAT-3).
         leave: DecelMs2Q11 = DecelMs2Q11::ZERO,
         /// How long the brake lamps still stay on (BODY-1).
@@ -70,7 +71,8 @@ impl Brake {
                 if holds { table.max(config.leave_hold) } else { table }
             }
         };
-        Self { leave: demand, ..self }
+        let slow = evidence.slow(config.leave_hold_speed, self.slow);
+        Self { leave: demand, slow, ..self }
     }
 
     /// After vetting: what went out, and whether the commands were usable.
@@ -134,7 +136,7 @@ impl Brake {
                 let table = evidence.speed.map_or(config.leave_hold, |speed| leave_table(speed.low, config));
                 floor.raise(table, Reason::SafeState);
             }
-            if evidence.obliged_below(config.leave_hold_speed) {
+            if self.slow {
                 floor.raise(config.leave_hold, Reason::SafeState);
             }
         }

@@ -5,13 +5,12 @@ use crate::brake::Situation;
 use crate::drive::Obligations;
 use crate::envelope::{Envelope, Timeouts, WarningBound};
 use crate::evidence::{BrakePedal, Evidence, SeatView};
-use crate::high_voltage::Stage;
 use crate::mitigation::Steered;
 use crate::parking::Parking;
 use crate::state::State;
 
 use supervisor_terms::word::permit;
-use supervisor_terms::{Config, Faults, Inputs, Millis, Reason, Threat};
+use supervisor_terms::{Config, Faults, Inputs, Millis, Reason, Stage, Threat};
 
 pub(crate) use crate::clock::Ticks;
 
@@ -105,6 +104,7 @@ fn envelope(
             hazard_flashers: seat.leave || must.safe_state,
             fault_lamp: faults.without(Faults::HINTS) != Faults::NONE,
             notice_lamp: next.steering.barred
+                || next.steering.lost
                 || (steering.enable.is_err() && next.steering.acts())
                 || drive.notices(config),
         },

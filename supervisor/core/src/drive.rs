@@ -4,23 +4,11 @@ use crate::clock::Ticks;
 use crate::envelope::{Bound, Permission, TorqueBound};
 use crate::evidence::{BrakePedal, Evidence, percent};
 
-use supervisor_terms::word::{codes, permit, retained};
+use supervisor_terms::word::{permit, retained};
 use supervisor_terms::{
-    AdsState, Config, DecelMs2Q11, DriveTorque, DrivingMode, EpbState, ExitReason, Gear, Inputs, Level, Millis, Origin,
-    Outputs, Pedal250, Percent, PercentPerS, Reason, Rest, SpeedKmhQ8, Threat, Timer,
+    AdsState, Config, DecelMs2Q11, DriveTorque, DrivingMode, EpbState, ExitReason, Gear, Inputs, Level, Millis, Mode,
+    Origin, Outputs, Pedal250, Percent, PercentPerS, Reason, Rest, SpeedKmhQ8, Threat, Timer,
 };
-
-codes! {
-    /// The longitudinal mode as granted.
-    Mode {
-        /// The driver drives.
-        Manual = 0,
-        /// Automated.
-        Automated = 1,
-        /// Automated, but the driver's accelerator governs for now (TRQ-4).
-        Suspended = 2,
-    }
-}
 
 retained! {
     /// The drive machine.
@@ -107,8 +95,9 @@ impl Drive {
             }
         };
         let manual = mode == Mode::Manual;
-        let given =
-            matches!(exit, ExitReason::None | ExitReason::Requested | ExitReason::BrakePedal | ExitReason::Switch);
+        // Mitigation tells the driver by its own warnings.
+        let given = matches!(exit, ExitReason::None | ExitReason::Requested | ExitReason::BrakePedal)
+            || matches!(exit, ExitReason::Switch | ExitReason::Mitigation);
         let notice = self.notice.run_while(manual && !given, ticks.permission);
         let armed = manual && (inputs.driver_set.is(false) || (self.armed && self.mode == Mode::Manual));
         Self { mode, exit, notice, armed, release_needed, ..self }
@@ -136,12 +125,14 @@ impl Drive {
 
     /// After vetting: what went out.
     ///
-    /// `braking` is the total of service brake and retarder, `asked` a usable drive command.
+    /// `braking` is the total of service brake and retarder, `asked` a usable drive command, `mode_lost` says that no
+    /// usable command named the mode.
     pub(crate) fn record(
         self,
         outputs: &Outputs,
         braking: DecelMs2Q11,
         asked: Option<DriveTorque>,
+        mode_lost: bool,
         ticks: Ticks,
         config: &Config,
     ) -> Self {
@@ -150,7 +141,9 @@ impl Drive {
         let hill = self.hill.run_while(counts, ticks.safety);
         let (mode, exit) = match (self.mode, outputs.mode) {
             (Mode::Manual, DrivingMode::Automated) => (Mode::Automated, ExitReason::None),
-            (Mode::Automated | Mode::Suspended, DrivingMode::Manual) => (Mode::Manual, ExitReason::Requested),
+            (Mode::Automated | Mode::Suspended, DrivingMode::Manual) => {
+                (Mode::Manual, if mode_lost { ExitReason::CommandLost } else { ExitReason::Requested })
+            }
             (mode, _) => (mode, self.exit),
         };
         let automated = asked
@@ -200,12 +193,13 @@ impl Drive {
         refuse(!matches!(inputs.gear.known(), Some(Gear::Drive | Gear::Reverse)), Reason::GearDirection);
         // TRQ-5: electric limit; unknown ⇒ none.
         common.lower(percent(inputs.drive_limit).unwrap_or(Percent::ZERO), Reason::DriveLimit);
-        // TRQ-5: rises are limited, falls never.
-        common.lower(self.ramped(config.torque_ramp, ticks.permission), Reason::TorqueRamp);
         // RSP-1: slip control at work (or unknown): no rise.
         common.lower_if(!inputs.asr.is(false), self.torque, Reason::SlipControl);
 
+        // TRQ-5: rises are limited, falls never.
+        let ramped = self.ramped(config.torque_ramp, ticks.permission);
         let mut driver = common;
+        driver.lower(ramped, Reason::TorqueRamp);
         match evidence.accelerator {
             None => driver.lower(Percent::ZERO, Reason::AcceleratorUnknown),
             Some(travel) => driver.lower(pedal_map(travel, config), Reason::PedalMap),
@@ -225,7 +219,10 @@ impl Drive {
 
         let tired = self.hill.due(config.hill_hold, ticks.safety);
         let hill_hold = must.confirmed && evidence.surely_below(config.hill_hold_speed) && !tired;
-        TorqueBound { driver, automated, idle: config.idle_torque, hill_hold }
+        let mut epbi = automated;
+        epbi.lower(ramped.max(config.idle_torque), Reason::TorqueRamp);
+        automated.lower(ramped, Reason::TorqueRamp);
+        TorqueBound { driver, automated, epbi, idle: config.idle_torque, hill_hold }
     }
 
     /// TRQ-5: the last output plus what the gradient allows in this cycle.

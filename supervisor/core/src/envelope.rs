@@ -64,9 +64,11 @@ bounds! {
     TorqueBound {
         /// For the driver's pedal.
         driver: Bound<Percent>,
-        /// For ADAS and EPBi.
+        /// For ADAS.
         automated: Bound<Percent>,
-        /// EPBi torque below this is none.
+        /// For EPBi: its ramp begins at the idle torque.
+        epbi: Bound<Percent>,
+        /// EPBi torque asked for below this is none.
         idle: Percent,
         /// Driver torque against the brake is allowed (TRQ-6).
         hill_hold: bool,
@@ -126,8 +128,10 @@ bounds! {
         range: AngleDeciDeg,
         /// Greatest rate.
         rate: RateDeciDegS,
-        /// Greatest overlay torque, either way.
-        overlay: TorqueNmQ10,
+        /// Lowest overlay torque.
+        overlay_least: TorqueNmQ10,
+        /// Highest overlay torque.
+        overlay_most: TorqueNmQ10,
         /// The overlay torque that asks for nothing: the last one, faded.
         overlay_neutral: TorqueNmQ10,
         /// Least weight: it fades out, it does not drop.
@@ -206,8 +210,8 @@ impl Envelope {
         let steering = self.steering.angle_least <= self.steering.angle_most
             && self.steering.angle_least <= self.steering.angle_neutral
             && self.steering.angle_neutral <= self.steering.angle_most
-            && self.steering.overlay >= TorqueNmQ10::ZERO
-            && self.steering.overlay_neutral.raw().unsigned_abs() <= self.steering.overlay.raw().unsigned_abs()
+            && self.steering.overlay_least <= self.steering.overlay_neutral
+            && self.steering.overlay_neutral <= self.steering.overlay_most
             && self.steering.weight_least <= self.steering.weight_most
             && self.steering.weight_most <= Percent::FULL;
         let epb = self.epb.obliged.is_none() || (self.epb.apply.is_ok() && self.epb.release.is_err());

@@ -122,6 +122,10 @@ impl Evidence {
     pub(crate) fn obliged_below(&self, limit: SpeedKmhQ8) -> bool {
         self.speed.is_some_and(|speed| speed.low < limit)
     }
+    /// The same, keeping what was last known while the speed is unknown: an obligation that has begun stays (rule 1).
+    pub(crate) fn slow(&self, limit: SpeedKmhQ8, before: bool) -> bool {
+        self.speed.map_or(before, |speed| speed.low < limit)
+    }
     /// Known to be slower than `limit`, by the higher speed: evidence for a permission.
     pub(crate) fn surely_below(&self, limit: SpeedKmhQ8) -> bool {
         self.speed.is_some_and(|speed| speed.high < limit)

@@ -13,20 +13,9 @@ use crate::parking::Parking;
 use crate::seat::SeatState;
 
 use supervisor_terms::word::{codes, permit, retained};
-use supervisor_terms::{Config, Contact, EpbState, Inputs, Key, Reason, Timer};
+use supervisor_terms::{Config, Contact, EpbState, Inputs, Key, Reason, Stage, Timer};
 
 codes! {
-    /// How far the shutdown after leave has gone.
-    Stage {
-        /// Not begun.
-        Up = 0,
-        /// Committed: K4 opens.
-        OpeningK4 = 1,
-        /// K4 was confirmed open: loads stop, then K1 opens.
-        OpeningK1 = 2,
-        /// Both were confirmed open.
-        Down = 3,
-    }
     /// The driver's restart: seat confirmed occupied, key Off, key Start, in that order.
     Restart {
         /// Nothing of it.

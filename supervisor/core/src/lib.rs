@@ -44,18 +44,18 @@ mod vet;
 
 pub use supervisor_terms::*;
 
-pub use boot::{Boot, Pending, Record, ResetCause};
+pub use boot::{Boot, Pending};
 pub use brake::Brake;
 pub use clock::Clock;
 pub use decide::{Decided, decide};
-pub use drive::{Drive, Mode};
+pub use drive::Drive;
 pub use envelope::*;
 pub use gear::{Direction, GearState};
-pub use high_voltage::{HighVoltage, LastKey, Restart, Stage};
+pub use high_voltage::{HighVoltage, LastKey, Restart};
 pub use mitigation::Mitigation;
 pub use parking::{Parking, PedalChain};
 pub use seat::SeatState;
 pub use state::{STATE_WORDS, State, StateImage};
 pub use steering::SteeringState;
-pub use step::{Decision, Occupancy, Status, record, step};
+pub use step::{Decision, Status, record, step};
 pub use vet::*;

@@ -37,6 +37,8 @@ retained! {
         pedal: PedalChain = PedalChain::Waiting,
         /// Apply is asked for and not confirmed.
         unconfirmed: Timer = Timer::STOPPED,
+        /// The last known speed was below that at which the brake is applied (SELF-5, rule 1).
+        slow: bool = false,
         /// Speed unknown during leave.
         speedless: Timer = Timer::STOPPED,
     }
@@ -52,9 +54,10 @@ impl Parking {
         config: &Config,
     ) -> Self {
         let speedless = self.speedless.run_while(seat.leave && evidence.speed.is_none(), ticks.safety);
-        let next = Self { speedless, ..self };
+        let slow = evidence.slow(config.epb_speed, self.slow);
+        let next = Self { slow, speedless, ..self };
         // SEAT-4: leave below 1.5 km/h applies the brake and sets the latch.
-        let by_leave = self.by_leave || (seat.leave && next.slow(evidence, config));
+        let by_leave = self.by_leave || (seat.leave && next.is_slow(evidence, config));
         // SEAT-5: K1, K4 and gear first, then the accelerator anew.
         let ready = seat.confirmed(config)
             && inputs.k1.is(Contact::Closed)
@@ -72,14 +75,14 @@ impl Parking {
     }
 
     /// Slow enough that an apply is obliged: below 1.5 km/h, or speed unknown for 20 s of leave (SEAT-3).
-    fn slow(&self, evidence: &Evidence, config: &Config) -> bool {
+    fn is_slow(&self, evidence: &Evidence, config: &Config) -> bool {
         evidence.obliged_below(config.epb_speed) || self.speedless.reached(config.epb_speedless)
     }
 
     /// SEAT-4, SEAT-11: apply until confirmed, and again when it comes loose.
     fn must_apply(&self, seat: &SeatState, evidence: &Evidence, inputs: &Inputs, config: &Config) -> bool {
         let kept = seat.leave || (self.by_leave && !seat.confirmed(config));
-        kept && self.slow(evidence, config) && !inputs.epb.is(EpbState::Applied)
+        kept && self.is_slow(evidence, config) && !inputs.epb.is(EpbState::Applied)
     }
 
     /// After vetting: a release that went out was a legal one, and ends *parked by leave*.
@@ -105,7 +108,7 @@ impl Parking {
         let switch = inputs.epb_switch.is(EpbSwitch::Apply);
         let obliged = if self.must_apply(seat, evidence, inputs, config) {
             Some(Reason::EpbApply)
-        } else if safe_state && evidence.obliged_below(config.epb_speed) {
+        } else if safe_state && self.slow {
             Some(Reason::SafeState)
         } else {
             switch.then_some(Reason::DriverSwitch)

@@ -1,18 +1,18 @@
 //! Retained state, and how it rests: words beside their complement (SELF-5).
 
-use crate::boot::{Boot, Record, ResetCause};
+use crate::boot::Boot;
 use crate::brake::Brake;
 use crate::clock::Clock;
 use crate::drive::Drive;
 use crate::gear::GearState;
-use crate::high_voltage::{HighVoltage, Stage};
+use crate::high_voltage::HighVoltage;
 use crate::mitigation::Mitigation;
 use crate::parking::Parking;
 use crate::seat::SeatState;
 use crate::steering::SteeringState;
 
 use supervisor_terms::word::{Words, retained};
-use supervisor_terms::{Body, Faults};
+use supervisor_terms::{Body, Faults, Record, ResetCause, Stage};
 
 retained! {
     /// Everything the supervisor remembers from cycle to cycle.
@@ -117,14 +117,17 @@ impl StateImage {
         image
     }
 
-    /// The state, or `None` if any word and its complement disagree, or a word decodes to no value.
+    /// Whether every word and its complement agree.
+    #[must_use]
+    pub fn intact(&self) -> bool {
+        self.words.iter().zip(&self.complement).all(|(word, complement)| *word == !*complement)
+    }
+
+    /// The state, or `None` if the image is not intact, or a word decodes to no value.
     #[must_use]
     pub fn decode(&self) -> Option<State> {
-        let mut slots = self.words.iter().zip(self.complement.iter());
-        State::read(&mut || {
-            let (word, complement) = slots.next()?;
-            (*word == !*complement).then_some(*word)
-        })
+        let mut words = self.words.iter().copied();
+        if self.intact() { State::read(&mut || words.next()) } else { None }
     }
 
     /// The same image with bit `bit` of word `index` flipped; indices run over words, then complements.
@@ -133,7 +136,8 @@ impl StateImage {
     #[must_use]
     pub fn with_flipped_bit(mut self, index: usize, bit: u32) -> Self {
         let mask = 1_u32.checked_shl(bit).unwrap_or(0);
-        if let Some(word) = self.words.iter_mut().chain(self.complement.iter_mut()).nth(index) {
+        let complement = index.checked_sub(STATE_WORDS).and_then(|index| self.complement.get_mut(index));
+        if let Some(word) = self.words.get_mut(index).or(complement) {
             *word ^= mask;
         }
         self

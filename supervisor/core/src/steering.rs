@@ -4,13 +4,12 @@
 //! measured angle permit: on a fault it never jumps. Weight and overlay torque fade in and out.
 
 use crate::clock::Ticks;
-use crate::drive::Mode;
 use crate::envelope::{Permission, SteeringBound};
 use crate::evidence::Evidence;
 
 use supervisor_terms::word::{permit, retained};
 use supervisor_terms::{
-    AngleDeciDeg, Config, EpsState, Inputs, Outputs, Percent, RateDeciDegS, Reason, Rest, SpeedKmhQ8, Timer,
+    AngleDeciDeg, Config, EpsState, Inputs, Mode, Outputs, Percent, RateDeciDegS, Reason, Rest, SpeedKmhQ8, Timer,
     TorqueNmQ10,
 };
 
@@ -31,6 +30,8 @@ retained! {
         takeover: Timer = Timer::STOPPED,
         /// Taken over: automatic steering must be asked for anew.
         barred: bool = false,
+        /// It acts without a usable command: it fades out.
+        lost: bool = false,
     }
 }
 
@@ -69,18 +70,17 @@ impl SteeringState {
         let strong = inputs.driver_torque.known().is_some_and(|torque| torque.raw().unsigned_abs() > limit);
         let takeover = self.takeover.run_while(strong, ticks.safety);
         let angle = if self.acts() { self.angle } else { evidence.steering_angle.unwrap_or(self.angle) };
-        let acted = |rest| if self.acts() { rest } else { Rest::ZERO };
-        let (angle_rest, fade_rest) = (acted(self.angle_rest), acted(self.fade_rest));
+
         let barred = self.barred || takeover.reached(config.takeover_time);
-        Self { angle, angle_rest, fade_rest, takeover, barred, ..self }
+        Self { angle, takeover, barred, ..self }
     }
 
-    /// After vetting. `asked` says whether a usable command asked for automatic steering.
+    /// After vetting. `asked` says whether a usable command asked for automatic steering; `None`: no usable command.
     pub(crate) fn record(
         self,
         outputs: &Outputs,
         bound: &SteeringBound,
-        asked: bool,
+        asked: Option<bool>,
         ticks: Ticks,
         config: &Config,
     ) -> Self {
@@ -92,7 +92,8 @@ impl SteeringState {
             weight: outputs.steering.weight,
             angle: outputs.steering.angle,
             overlay: outputs.steering.overlay,
-            barred: self.barred && asked,
+            barred: self.barred && asked == Some(true),
+            lost: asked.is_none() && outputs.steering.weight > Percent::ZERO,
             ..self
         }
     }
@@ -141,7 +142,7 @@ impl SteeringState {
             |ticks| u8::try_from(self.fade_rest.portion(config.steering_fade.raw(), ticks).0).unwrap_or(u8::MAX);
         let (fade_in, fade_out) = (share(ticks.permission), share(ticks.safety));
         let weight = self.weight.raw().min(100);
-        let (overlay, neutral) = self.overlay(fade_in, fade_out, config);
+        let (overlay_least, overlay_most, overlay_neutral) = self.overlay(fade_in, fade_out, config);
         SteeringBound {
             enable,
             angle_least: AngleDeciDeg::new(least),
@@ -150,26 +151,26 @@ impl SteeringState {
             angle_neutral: AngleDeciDeg::new(self.angle.raw().max(least).min(most)),
             range: config.steering_range,
             rate,
-            overlay,
-            overlay_neutral: neutral,
+            overlay_least,
+            overlay_most,
+            overlay_neutral,
             weight_least: Percent::new(weight.saturating_sub(fade_out)),
             weight_most: Percent::new(weight.saturating_add(fade_in).min(100)),
             bar: config.steering_bar,
         }
     }
 
-    /// STR-2: the greatest overlay torque (fading in), and the last one faded out.
-    fn overlay(&self, fade_in: u8, fade_out: u8, config: &Config) -> (TorqueNmQ10, TorqueNmQ10) {
-        let full = u32::from(config.steering_overlay.raw().unsigned_abs());
+    /// STR-2: the window of the overlay torque around the last one, and the last one faded towards zero.
+    fn overlay(&self, fade_in: u8, fade_out: u8, config: &Config) -> (TorqueNmQ10, TorqueNmQ10, TorqueNmQ10) {
+        let full = config.steering_overlay.raw().max(0);
         let step = |share: u8| {
-            let step = full.saturating_mul(u32::from(share)) / 100;
+            let step = u32::from(full.unsigned_abs()).saturating_mul(u32::from(share)) / 100;
             i16::try_from(step).unwrap_or(i16::MAX)
         };
-        let last = self.overlay.raw();
-        let most = i16::try_from(last.unsigned_abs()).unwrap_or(i16::MAX).saturating_add(step(fade_in));
-        let fade = step(fade_out);
-        let faded = if last > 0 { last.saturating_sub(fade).max(0) } else { last.saturating_add(fade).min(0) };
-        let bound = most.min(config.steering_overlay.raw().max(0));
-        (TorqueNmQ10::new(bound), TorqueNmQ10::new(faded.max(bound.saturating_neg()).min(bound)))
+        let before = self.overlay.raw().max(full.saturating_neg()).min(full);
+        let (down, up) = if before > 0 { (step(fade_out), step(fade_in)) } else { (step(fade_in), step(fade_out)) };
+        let least = before.saturating_sub(down).max(full.saturating_neg());
+        let most = before.saturating_add(if before == 0 { down } else { up }).min(full);
+        (TorqueNmQ10::new(least), TorqueNmQ10::new(most), TorqueNmQ10::new(least.max(most.min(0))))
     }
 }

@@ -1,28 +1,14 @@
 //! Step: the only way in.
 
 use crate::decide::{Decided, decide};
-use crate::drive::Mode;
 use crate::envelope::Envelope;
-use crate::high_voltage::Stage;
 use crate::state::{State, StateImage};
 use crate::vet::vet;
 
-use supervisor_terms::word::codes;
 use supervisor_terms::{
-    Commands, Config, ExitReason, Faults, Inputs, Level, Millis, Outputs, Sealed, Threat, Verdicts,
+    Commands, Config, ExitReason, Faults, Inputs, Level, Millis, Mode, Occupancy, Outputs, Record, Sealed, Stage,
+    Threat, Verdicts,
 };
-
-codes! {
-    /// What the supervisor says of the seat.
-    Occupancy {
-        /// Confirmed occupied.
-        Confirmed = 0,
-        /// Not confirmed; no leave runs.
-        NotConfirmed = 1,
-        /// Leave runs.
-        Leave = 2,
-    }
-}
 
 /// The state after the cycle, for people and records. Nothing in it can be written back.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -46,7 +32,7 @@ pub struct Status {
     /// Faults and hints of this cycle.
     pub faults: Faults,
     /// What to persist now (SELF-9).
-    pub record: crate::boot::Record,
+    pub record: Record,
 }
 
 /// Everything that one cycle decides.
@@ -103,15 +89,17 @@ pub fn step(
 pub fn record(decided: &Decided, outputs: &Outputs, commands: &Commands, config: &Config) -> State {
     let timeouts = decided.envelope.timeouts;
     let usable = [commands.brake.usable(timeouts.ms50).is_ok(), commands.retarder.usable(timeouts.ms100).is_ok()];
-    let asked = commands.steering.usable(timeouts.ms50).is_ok_and(|steering| steering.enable);
+    let asked = commands.drive.usable(timeouts.ms50).ok();
+    let mode_lost = commands.mode.usable(timeouts.ms200).is_err();
+    let steers = commands.steering.usable(timeouts.ms50).ok().map(|steering| steering.enable);
     let (state, bound) = (decided.state, &decided.envelope.brake);
     let braking = bound.total(outputs);
     let due = bound.lamps_due(braking, config.lamp_decel);
     State {
         parking: state.parking.record(outputs),
-        drive: state.drive.record(outputs, braking, commands.drive.usable(timeouts.ms50).ok(), decided.ticks, config),
+        drive: state.drive.record(outputs, braking, asked, mode_lost, decided.ticks, config),
         brake: state.brake.record(outputs, due, usable, decided.ticks, config),
-        steering: state.steering.record(outputs, &decided.envelope.steering, asked, decided.ticks, config),
+        steering: state.steering.record(outputs, &decided.envelope.steering, steers, decided.ticks, config),
         body: outputs.body,
         ..state
     }

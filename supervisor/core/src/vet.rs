@@ -28,15 +28,15 @@ pub fn vet(envelope: &Envelope, commands: &Commands) -> (Outputs, Verdicts) {
     let beside = envelope.brake.retarder_beside(out.brake.total);
     let retarder = channel!(retarder, vet_retarder(envelope, beside, commands.retarder));
     let braking = envelope.brake.total(&out);
-    let drive = channel!(drive, vet_drive(envelope, out.gear, braking, commands.drive));
-    let target_speed = channel!(target_speed, vet_target_speed(envelope, commands.target_speed));
+    let mode = channel!(mode, vet_mode(envelope, commands.mode));
+    let drive = channel!(drive, vet_drive(envelope, out.mode, out.gear, braking, commands.drive));
+    let target_speed = channel!(target_speed, vet_target_speed(envelope, out.mode, commands.target_speed));
     let epb = channel!(epb, vet_epb(envelope, commands.epb));
     let steering = channel!(steering, vet_steering(envelope, commands.steering));
     let contactors = channel!(contactors, vet_contactors(envelope, out.drive.torque, commands.contactors));
     let auxiliaries = channel!(auxiliaries, vet_auxiliaries(envelope, commands.auxiliaries));
     let warnings = channel!(warnings, vet_warnings(envelope, commands.warnings));
     let body = channel!(body, vet_body(envelope, braking, commands.body));
-    let mode = channel!(mode, vet_mode(envelope, commands.mode));
     let list =
         [drive, target_speed, brake, retarder, gear, epb, steering, contactors, auxiliaries, warnings, body, mode];
     (out, Verdicts::new(list))
@@ -104,7 +104,9 @@ pub fn vet_brake(envelope: &Envelope, command: Command<ServiceBrake>) -> (Servic
     // An obligation carries its own mode and priority: the driver's demand is the floor.
     let obliged = bound.floor.most > DecelMs2Q11::ZERO;
     if obliged && (out.mode != BrakeMode::Maximum || out.priority != Priority::Highest) {
-        cause = Some(Verdict::fact(Kind::Substitute, Reason::BrakeMode, out.mode.code(), BrakeMode::Maximum.code()));
+        let mode = out.mode != BrakeMode::Maximum;
+        let (value, limit) = if mode { (out.mode.code(), BrakeMode::Maximum.code()) } else { (out.priority.code(), 0) };
+        cause = Some(Verdict::fact(Kind::Substitute, Reason::BrakeMode, value, limit));
         (out.mode, out.priority) = (BrakeMode::Maximum, Priority::Highest);
     }
     out.electric = wanted.electric.min(bound.electric);
@@ -153,12 +155,13 @@ fn limited(wanted: Percent, bound: Bound<Percent>) -> (Percent, Verdict, Option<
     (wanted.min(bound.most), pass, cause)
 }
 
-/// TRQ-1 to TRQ-6: beside the gear that goes out, and the total deceleration ([`BrakeBound::total`]).
+/// TRQ-1 to TRQ-6: beside the mode and the gear that go out, and the total deceleration ([`BrakeBound::total`]).
 ///
 /// [`BrakeBound::total`]: crate::BrakeBound::total
 #[must_use]
 pub fn vet_drive(
     envelope: &Envelope,
+    mode: DrivingMode,
     gear: GearRequest,
     braking: DecelMs2Q11,
     command: Command<DriveTorque>,
@@ -167,7 +170,12 @@ pub fn vet_drive(
     let usable = command.usable(envelope.timeouts.ms50);
     let wanted = usable.unwrap_or(DriveTorque::NEUTRAL);
     let by_driver = wanted.origin == Origin::Driver;
-    let mut most = if by_driver { bound.driver } else { bound.automated };
+    let mut most = match wanted.origin {
+        Origin::Driver => bound.driver,
+        Origin::Adas => bound.automated,
+        Origin::Epbi => bound.epbi,
+    };
+    most.lower_if(!by_driver && mode == DrivingMode::Manual, Percent::ZERO, Reason::ModeNotGranted);
     most.lower_if(!by_driver && !wanted.active, Percent::ZERO, Reason::NotActive);
     // TRQ-6: not against the brake, and not while the gear changes.
     most.lower_if(braking > DecelMs2Q11::ZERO && !(bound.hill_hold && by_driver), Percent::ZERO, Reason::BrakeDemand);
@@ -179,7 +187,6 @@ pub fn vet_drive(
     };
     most.lower_if(!steady, Percent::ZERO, Reason::GearDirection);
 
-    // TRQ-5: what is left of it is no torque below the idle torque.
     most.lower_if(
         wanted.origin == Origin::Epbi && wanted.torque.min(most.most) < bound.idle,
         Percent::ZERO,
@@ -187,17 +194,21 @@ pub fn vet_drive(
     );
     let (torque, pass, cause) = limited(wanted.torque, most);
     // A sender that may not have torque does not keep its active flag either; no torque in a granted mode is coasting.
-    let coasts = wanted.torque == Percent::ZERO && envelope.automated.is_ok();
+    let coasts = wanted.torque == Percent::ZERO && mode == DrivingMode::Automated;
     let refused = !by_driver && torque == Percent::ZERO && !coasts;
     let out = if refused { DriveTorque::NEUTRAL } else { DriveTorque { torque, ..wanted } };
-    let blocked = refused.then(|| Verdict::above(Kind::Block, most.reason, wanted.torque.wide(), most.most.wide()));
+    let blocked = refused.then(|| match wanted.torque {
+        Percent::ZERO => Verdict::fact(Kind::Block, most.reason, u8::from(wanted.active), 0),
+        torque => Verdict::above(Kind::Block, most.reason, torque.wide(), most.most.wide()),
+    });
     (out, judge(usable, &out, &DriveTorque::NEUTRAL, pass, blocked.filter(|_| usable.is_ok()).or(cause)))
 }
 
-/// SPD-1.
+/// SPD-1: beside the mode that goes out.
 #[must_use]
-pub fn vet_target_speed(envelope: &Envelope, command: Command<SpeedKmhQ8>) -> (SpeedKmhQ8, Verdict) {
-    let bound = envelope.target_speed;
+pub fn vet_target_speed(envelope: &Envelope, mode: DrivingMode, command: Command<SpeedKmhQ8>) -> (SpeedKmhQ8, Verdict) {
+    let mut bound = envelope.target_speed;
+    bound.lower_if(mode == DrivingMode::Manual, SpeedKmhQ8::ZERO, Reason::ModeNotGranted);
     let usable = command.usable(envelope.timeouts.ms50);
     let wanted = usable.unwrap_or(SpeedKmhQ8::ZERO);
     let out = wanted.min(bound.most);
@@ -215,15 +226,17 @@ pub fn vet_epb(envelope: &Envelope, command: Command<ParkingBrake>) -> (ParkingB
     let code = wanted.request.code();
     let refuse = |permission: Permission| match permission {
         Ok(()) => (wanted, None),
-        Err(reason) => {
-            let none = ParkingBrake { request: EpbRequest::None, ..wanted };
-            (none, Some(Verdict::fact(Kind::Block, reason, code, EpbRequest::None.code())))
-        }
+        Err(reason) => (ParkingBrake::NEUTRAL, Some(Verdict::fact(Kind::Block, reason, code, EpbRequest::None.code()))),
     };
     let (out, cause) = match (bound.obliged, wanted.request) {
         (Some(reason), _) => {
             let apply = ParkingBrake { request: EpbRequest::Apply, mode: EpbMode::Automatic };
-            (apply, Some(Verdict::fact(Kind::Substitute, reason, code, EpbRequest::Apply.code())))
+            let (value, limit) = if wanted.request == EpbRequest::Apply {
+                (wanted.mode.code(), EpbMode::Automatic.code())
+            } else {
+                (code, EpbRequest::Apply.code())
+            };
+            (apply, Some(Verdict::fact(Kind::Substitute, reason, value, limit)))
         }
         (None, EpbRequest::None) => (wanted, None),
         (None, EpbRequest::Apply) => refuse(bound.apply),
@@ -270,12 +283,11 @@ pub fn vet_steering(envelope: &Envelope, command: Command<Steering>) -> (Steerin
             judge(usable, &out, &Steering::NEUTRAL, Verdict::PASS, Some(cause).filter(|_| usable.is_ok() || !idle)),
         );
     }
-    let limit = bound.overlay.raw();
     let out = Steering {
         enable: true,
         angle: wanted.angle.max(bound.angle_least).min(bound.angle_most),
         rate: wanted.rate.min(bound.rate),
-        overlay: TorqueNmQ10::new(wanted.overlay.raw().max(limit.saturating_neg()).min(limit)),
+        overlay: wanted.overlay.max(bound.overlay_least).min(bound.overlay_most),
         weight: wanted.weight.max(bound.weight_least).min(bound.weight_most),
         bar_limit: wanted.bar_limit.min(bound.bar),
     };

@@ -20,6 +20,7 @@ mod command;
 mod input;
 mod limits;
 mod sealed;
+mod status;
 mod threat;
 mod units;
 mod unknown;
@@ -37,6 +38,7 @@ pub use input::{
 };
 pub use limits::{Config, LIMITS, Limit, Row};
 pub use sealed::{ConfigError, SEALED_BYTES, Sealed};
+pub use status::{Mode, Occupancy, Record, ResetCause, Stage};
 pub use threat::{Alert, Closing, Level, Object, Threat};
 pub use units::{
     AngleDeciDeg, BarTorque50mNm, ClosingCmS, Count, CurrentDeciA, DecelMs2Q11, DistanceCm, Millis, OffsetCm, Pedal250,
