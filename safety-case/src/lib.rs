@@ -1,1 +1,31 @@
-//! Safety analysis and host tools.
+//! The safety analysis as data, and the host program `supervise`: it replays drives through the supervisor, shows
+//! and explains every verdict.
+//!
+//! Where to look: a line of a log, `candump`; how frames become inputs, `road`; when to step, `grid.rs`; the loop,
+//! `replay.rs`; what is worth seeing over time, `lanes` and `runs.rs`; what people read, `timeline.rs`,
+//! `summary.rs`, `document.rs` (JSON), `page` (HTML).
+#![forbid(unsafe_code)]
+
+pub mod analysis;
+pub mod candump;
+pub mod cli;
+pub mod commands;
+pub mod cycle;
+pub mod difference;
+pub mod digest;
+pub mod document;
+pub mod grid;
+pub mod lanes;
+pub mod notes;
+pub mod number;
+pub mod page;
+pub mod physical;
+pub mod progress;
+pub mod prove;
+pub mod replay;
+pub mod road;
+pub mod runs;
+pub mod stretches;
+pub mod summary;
+pub mod timeline;
+pub mod words;

@@ -1,7 +1,7 @@
 //! The supervisor itself: state at rest, boot, safe state.
 use supervisor_core::{
-    Commands, Inputs, Millis, Outputs, Percent, Record, ResetCause, STATE_WORDS, Sealed, State, StateImage, Threat,
-    step, vet_brake, vet_contactors, vet_drive, vet_epb, vet_gear, vet_mode, vet_warnings,
+    Commands, EpbRequest, Outputs, Percent, Record, ResetCause, STATE_WORDS, State, StateImage, record, vet_brake,
+    vet_contactors, vet_drive, vet_epb, vet_gear, vet_mode, vet_warnings,
 };
 
 use super::Any;
@@ -71,15 +71,18 @@ fn mit_4_brake_never_below_obligation() {
     kani::cover!(any.decided.state.seat.leave, "leave");
 }
 
-/// SELF-1: the whole shipped step, any image bytes: total.
+/// SELF-1, SEAT-4: `record` is total, and only a release that went out clears *parked by leave*. With `decide`, every
+/// `vet_*` and the state image this is the whole of `step`.
 #[kani::proof]
-#[kani::unwind(160)]
-fn self_1_step_is_total() {
-    let mut image: StateImage = kani::any();
-    let sealed: Sealed = kani::any();
-    let (now, inputs, threat, commands): (Millis, Inputs, Threat, Commands) =
-        (kani::any(), kani::any(), kani::any(), kani::any());
-    let decision = step(&mut image, &sealed, now, &inputs, &threat, &commands);
-    assert!(image.decode().is_some());
-    kani::cover!(decision.status.safe_state, "the safe state");
+#[kani::unwind(17)]
+fn seat_4_record_is_total_and_keeps_the_latch() {
+    let any = Any::new();
+    let (outputs, commands): (Outputs, Commands) = (kani::any(), kani::any());
+    let next = record(&any.decided, &outputs, &commands, &any.config);
+    let released = outputs.epb.request == EpbRequest::Release;
+    assert!(next.parking.by_leave == (any.decided.state.parking.by_leave && !released));
+    assert!(next.latched == any.decided.state.latched);
+    assert!(next.high_voltage == any.decided.state.high_voltage && next.seat == any.decided.state.seat);
+    kani::cover!(next.parking.by_leave, "parked by leave stays");
+    kani::cover!(any.decided.state.parking.by_leave && released, "a release ends it");
 }

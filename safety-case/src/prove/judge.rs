@@ -31,7 +31,8 @@ pub fn judge(export: &Value, harness: &str, reach: bool) -> Verdict {
         return Verdict::Undetermined("no result for this harness".to_owned());
     };
     let checks = result.get("checks").and_then(Value::as_array).map(Vec::as_slice).unwrap_or_default();
-    let (covers, others): (Vec<&Value>, Vec<&Value>) = checks.iter().partition(|check| text(check, "category") == "cover");
+    let (covers, others): (Vec<&Value>, Vec<&Value>) =
+        checks.iter().partition(|check| text(check, "category") == "cover");
     if let Some(failed) = others.iter().find(|check| text(check, "status") == "Failure") {
         let line = failed.pointer("/location/line").and_then(Value::as_str).unwrap_or("?");
         let file = failed.pointer("/location/file").and_then(Value::as_str).unwrap_or("?");

@@ -40,15 +40,23 @@ pub fn prove(root: &Path, options: &Options, say: &mut impl FnMut(&str)) -> Resu
     let list = List::load(root)?;
     let mut record = Record::load(root)?;
     let sources = sources_digest(root)?;
-    if let Some(name) = options.harnesses.iter().find(|name| !list.harness.iter().any(|harness| harness.name == **name)) {
+    if let Some(name) = options.harnesses.iter().find(|name| !list.harness.iter().any(|harness| harness.name == **name))
+    {
         return Err(ProveError::Unknown(name.clone()));
     }
     if !options.check {
-        let chosen: Vec<&Harness> = list.harness.iter().filter(|harness| is_chosen(harness, options, &record)).collect();
+        let chosen: Vec<&Harness> =
+            list.harness.iter().filter(|harness| is_chosen(harness, options, &record)).collect();
         for (index, harness) in chosen.iter().enumerate() {
             say(&format!("[{}/{}] {} ...", index.saturating_add(1), chosen.len(), harness.name));
             let (proof, tools) = run(root, harness, &sources)?;
-            say(&format!("        {} in {} s, {} checks, {} covers", word(&proof.verdict), proof.seconds, proof.checks, proof.covers));
+            say(&format!(
+                "        {} in {} s, {} checks, {} covers",
+                word(&proof.verdict),
+                proof.seconds,
+                proof.checks,
+                proof.covers
+            ));
             record.put(proof, &list);
             record.tools = tools;
             record.save(root)?;
@@ -87,7 +95,11 @@ fn show(list: &List, record: &Record, sources: &str, say: &mut impl FnMut(&str))
         }
         say(&format!("{:<52} {line}", harness.name));
     }
-    say(&format!("{} of {} harnesses proved on the present sources", list.harness.len().saturating_sub(open), list.harness.len()));
+    say(&format!(
+        "{} of {} harnesses proved on the present sources",
+        list.harness.len().saturating_sub(open),
+        list.harness.len()
+    ));
     open
 }
 
@@ -100,18 +112,35 @@ fn run(root: &Path, harness: &Harness, sources: &str) -> Result<(Proof, Tools), 
     let started = Instant::now();
     let mut command = Command::new("cargo");
     command.current_dir(root).args(["kani", "-p", "supervisor-proofs", "--exact", "--harness", &harness.id()]);
-    command.args(["--solver", SOLVER, "--output-format", "terse", "-Z", "unstable-options", "--harness-timeout", "900s"]);
+    command.args([
+        "--solver",
+        SOLVER,
+        "--output-format",
+        "terse",
+        "-Z",
+        "unstable-options",
+        "--harness-timeout",
+        "900s",
+    ]);
     command.arg("--export-json").arg(&export).stdout(Stdio::null()).stderr(Stdio::null());
     command.status().map_err(ProveError::Tool)?;
     let seconds = started.elapsed().as_secs();
-    let json: Value = std::fs::read_to_string(&export).ok().and_then(|text| serde_json::from_str(&text).ok()).unwrap_or(Value::Null);
+    let json: Value =
+        std::fs::read_to_string(&export).ok().and_then(|text| serde_json::from_str(&text).ok()).unwrap_or(Value::Null);
     let count = |category: bool| {
         let results = json.pointer("/verification_results/results/0/checks").and_then(Value::as_array);
         let is_cover = |check: &&Value| (check.get("category").and_then(Value::as_str) == Some("cover")) == category;
         results.into_iter().flatten().filter(is_cover).count()
     };
     let verdict = judge(&json, &harness.id(), harness.reaches());
-    let proof = Proof { harness: harness.clone(), verdict, checks: count(false), covers: count(true), seconds, sources: sources.to_owned() };
+    let proof = Proof {
+        harness: harness.clone(),
+        verdict,
+        checks: count(false),
+        covers: count(true),
+        seconds,
+        sources: sources.to_owned(),
+    };
     let tool = |key: &str| json.pointer(&format!("/tools/{key}")).map_or_else(String::new, plain);
     let tools = Tools { kani: tool("kani"), rustc: tool("rustc"), cbmc: tool("cbmc"), solver: SOLVER.to_owned() };
     Ok((proof, tools))

@@ -40,5 +40,6 @@ pub(crate) const fn extract(payload: u64, start: u32, width: u32) -> u64 {
 
 /// The payload with `raw` in the field of `width` bits at `start`.
 pub(crate) const fn insert(payload: u64, start: u32, width: u32, raw: u64) -> u64 {
-    payload & !full(width).wrapping_shl(start) | (raw & full(width)).wrapping_shl(start)
+    // The field's bits that differ are flipped.
+    payload ^ (payload ^ raw.wrapping_shl(start)) & full(width).wrapping_shl(start)
 }

@@ -1,0 +1,242 @@
+//! The command line.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use supervisor::{Record, ResetCause};
+
+const ABOUT: &str = "\
+The supervisor stands between the main controller of an electric bus and its actuators. This program replays \
+recorded drives through it, exactly as it runs on the target, and shows what it obliged, what it vetted, and why.
+
+Without a command it replays the drives that ship with the project and writes a page for each.";
+
+const EXAMPLES: &str = "\
+Examples:
+  supervise                                          replay the shipped drives, write target/supervise/index.html
+  supervise replay drive.log                         the timeline and a summary, in text
+  supervise replay a.candump.gz --html drive.html    one page that works offline: zoom, hover, reasons
+  supervise replay a.log b.log --json drive.json     two logs of one drive, every verdict as JSON
+  candump -L can0 | supervise replay -               from a pipe, until it ends
+  supervise replay bus.log --map my.toml --dbc my.dbc      decode with your own DBC
+  supervise replay bus.log --fail-on-intervention    for CI: exit code 3 if anything was vetted
+  supervise limits                                   every number of the supervisor, its unit and source
+  supervise config seal my.toml my.bin               seal a configuration
+  supervise analysis                                 check the safety analysis
+
+Exit codes: 0 done; 1 the analysis has findings; 2 bad arguments, files, mapping or configuration;
+3 with --fail-on-intervention, if the supervisor intervened.";
+
+const REPLAY: &str = "\
+Logs are candump's, in both layouts, plain or gzip:
+  (0.022500) can0 0CF00300#FD00FFFFFFFFFFFF
+  (0.022500)  can0  0CF00300   [8]  FD 00 FF FF FF FF FF FF
+
+Without --map, our own link and the standard J1939 frames CCVS1, EEC2, EBC1, ETC2 are decoded. A mapping says in \
+TOML which signal of which DBC is which input or command; safety-case/maps/ebus.toml is a worked example:
+  name = \"my bus\"
+  dbc = \"my.dbc\"          # beside this file; --dbc goes before it
+  ids = \"j1939\"           # compare the parameter group only; \"exact\" compares every bit
+  [[input]]
+  field = \"wheel_speed\"
+  message = \"CCVS1\"
+  signal = \"WheelBasedVehicleSpeed\"
+  [[input]]
+  field = \"epb\"
+  message = \"CCVS1\"
+  signal = \"ParkingBrakeSwitch\"
+  values = { 0 = \"released\", 1 = \"applied\" }
+  [[command]]
+  channel = \"service_brake\"
+  message = \"MyBrake\"
+  fields = { total = { signal = \"Demand\" }, mode = \"maximum\", priority = \"medium\" }
+What is not mapped is unknown, and what needs it is refused: that is what the supervisor would do.
+
+Time: the supervisor steps every 10 ms of log time, after the frames up to then. A clock that runs backwards, or \
+leaps ahead by more than an hour, is named with file and line; the supervisor gets the time as it is (SELF-3).
+
+Lines that are not understood, unknown identifiers, refused frames and truncated files are counted and named, and \
+never end the replay.";
+
+/// The program.
+#[derive(Debug, Parser)]
+#[command(name = "supervise", version, about = "Replays drives through the bus safety supervisor", long_about = ABOUT, after_help = EXAMPLES)]
+pub struct Cli {
+    /// What to do; without it, the shipped drives are replayed.
+    #[command(subcommand)]
+    pub command: Option<Command>,
+}
+
+/// What to do.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Replay candump logs through the supervisor
+    #[command(long_about = REPLAY)]
+    Replay(ReplayArgs),
+    /// Print every limit of the supervisor: value, range, unit, source, requirement
+    Limits(LimitsArgs),
+    /// Seal a configuration, or show a sealed one
+    #[command(subcommand)]
+    Config(ConfigCommand),
+    /// Check the safety analysis and print what does not hold together
+    Analysis(AnalysisArgs),
+    /// Run the Kani harnesses, read the results as data, and keep the record
+    ///
+    /// A harness counts as proved only if it succeeded on the present sources and every cover is satisfied: Kani
+    /// itself ends with 0 on a proof that shows nothing. Exits with 1 if any harness is not proved, is stale, or was
+    /// never run; without cargo kani it runs nothing, shows the committed record, and exits with 1.
+    Prove(Prove),
+}
+
+/// Arguments of `replay`.
+#[derive(Debug, Args)]
+pub struct ReplayArgs {
+    /// Logs of one drive, in order; `-` is the standard input
+    #[arg(required = true, value_name = "LOG")]
+    pub logs: Vec<PathBuf>,
+    /// The DBC that the mapping speaks of
+    #[arg(long, value_name = "FILE", requires = "map")]
+    pub dbc: Option<PathBuf>,
+    /// Which signals are which inputs and commands (TOML)
+    #[arg(long, value_name = "FILE")]
+    pub map: Option<PathBuf>,
+    /// Write every verdict and state over time as JSON
+    #[arg(long, value_name = "FILE")]
+    pub json: Option<PathBuf>,
+    /// Write one page that works offline
+    #[arg(long, value_name = "FILE")]
+    pub html: Option<PathBuf>,
+    /// A sealed configuration; without it, the defaults of the table of limits
+    #[arg(long, value_name = "FILE")]
+    pub config: Option<PathBuf>,
+    /// Why the supervisor starts
+    #[arg(long, value_enum, default_value = "power-on")]
+    pub boot: Boot,
+    /// What it had persisted before it started
+    #[arg(long, value_enum, default_value = "none")]
+    pub record: Persisted,
+    /// Only frames of this bus, for example can0
+    #[arg(long, value_name = "NAME")]
+    pub bus: Option<String>,
+    /// Title of the page
+    #[arg(long, value_name = "TEXT")]
+    pub title: Option<String>,
+    /// Greatest number of entries in the timeline
+    #[arg(long, value_name = "COUNT", default_value_t = 500)]
+    pub timeline: usize,
+    /// Exit with 3 if the supervisor intervened
+    #[arg(long)]
+    pub fail_on_intervention: bool,
+    /// No timeline and no progress bar, only the summary
+    #[arg(long, short)]
+    pub quiet: bool,
+}
+
+/// Why the supervisor starts.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum Boot {
+    /// Power was switched on
+    PowerOn,
+    /// The watchdog
+    Watchdog,
+    /// Anything else
+    Other,
+}
+
+impl From<Boot> for ResetCause {
+    fn from(boot: Boot) -> Self {
+        match boot {
+            Boot::PowerOn => Self::PowerOn,
+            Boot::Watchdog => Self::Watchdog,
+            Boot::Other => Self::Other,
+        }
+    }
+}
+
+/// The persisted record.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum Persisted {
+    /// Nothing
+    None,
+    /// In leave, or parked by leave
+    Leave,
+    /// High voltage was shut down after leave
+    HvDown,
+    /// The record failed its CRC
+    Lost,
+}
+
+impl From<Persisted> for Option<Record> {
+    fn from(record: Persisted) -> Self {
+        match record {
+            Persisted::None => Some(Record::None),
+            Persisted::Leave => Some(Record::Leave),
+            Persisted::HvDown => Some(Record::HighVoltageDown),
+            Persisted::Lost => None,
+        }
+    }
+}
+
+/// Arguments of `limits`.
+#[derive(Debug, Args)]
+pub struct LimitsArgs {
+    /// As JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// What to do with a configuration.
+#[derive(Debug, Subcommand)]
+pub enum ConfigCommand {
+    /// Check a configuration written in TOML and seal it
+    ///
+    /// The file names fields of the table of limits, for example `comfort_cap = 6144` or
+    /// `level_ttc = [4400, 3600, 2700]`, in the unit of the table; what it leaves out keeps its default.
+    Seal {
+        /// TOML with values that differ from the defaults
+        #[arg(value_name = "IN.toml")]
+        input: PathBuf,
+        /// The sealed bytes
+        #[arg(value_name = "OUT.bin")]
+        output: PathBuf,
+    },
+    /// Show a sealed configuration, and what differs from the defaults
+    Show {
+        /// Sealed bytes; without it, the defaults
+        #[arg(value_name = "FILE")]
+        file: Option<PathBuf>,
+    },
+}
+
+/// Arguments of `analysis`.
+#[derive(Debug, Args)]
+pub struct AnalysisArgs {
+    /// The folder; without it, the one of this project
+    #[arg(value_name = "FOLDER")]
+    pub folder: Option<PathBuf>,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Cli;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        Cli::command().debug_assert();
+    }
+}
+
+/// Arguments of `prove`.
+#[derive(Debug, Args)]
+pub struct Prove {
+    /// Only these harnesses (names of proofs/harnesses.toml)
+    #[arg(long, value_name = "NAME")]
+    pub harness: Vec<String>,
+    /// Only what took no longer than this when it was recorded, or was never recorded
+    #[arg(long, value_name = "SECONDS")]
+    pub within: Option<u64>,
+    /// Run nothing: show the record and whether it is stale
+    #[arg(long)]
+    pub check: bool,
+}

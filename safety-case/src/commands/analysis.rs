@@ -1,0 +1,37 @@
+//! `supervise analysis`.
+
+use std::fmt::Write;
+use std::path::Path;
+
+use super::{FINDINGS, Outcome, print};
+use crate::analysis::{check, load};
+use crate::cli::AnalysisArgs;
+
+/// Runs it.
+///
+/// # Errors
+/// If the analysis cannot be read; file and entry are named.
+pub fn run(arguments: &AnalysisArgs) -> Outcome {
+    let ours = || Path::new(env!("CARGO_MANIFEST_DIR")).join("analysis");
+    let folder = arguments.folder.clone().unwrap_or_else(ours);
+    let analysis = load(&folder)?;
+    let findings = check(&analysis);
+    let mut text = String::new();
+    for finding in &findings {
+        writeln!(text, "{finding}")?;
+    }
+    let events: usize = analysis.hazards.iter().map(|hazard| hazard.event.len()).sum();
+    for (count, what) in [
+        (analysis.hazards.len(), "hazards"),
+        (events, "hazardous events"),
+        (analysis.goals.len(), "safety goals"),
+        (analysis.requirements.len(), "requirements"),
+        (analysis.assumptions.len(), "assumptions of use"),
+        (analysis.readings.len(), "readings of the sources"),
+        (findings.len(), "findings"),
+    ] {
+        writeln!(text, "{count:>5} {what}")?;
+    }
+    print(text)?;
+    Ok(if findings.is_empty() { 0 } else { FINDINGS })
+}

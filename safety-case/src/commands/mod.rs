@@ -1,0 +1,57 @@
+//! The commands of `supervise`: they print, and say with which exit code to end.
+
+mod analysis;
+mod config;
+mod drives;
+mod limits;
+mod prove;
+mod replay;
+
+use std::fmt::Display;
+use std::io::{self, Write};
+use std::process::ExitCode;
+
+use crate::cli::{Cli, Command};
+
+/// The analysis has findings, or a harness is not proved.
+pub const FINDINGS: u8 = 1;
+/// Bad arguments, files, mapping or configuration.
+pub const BAD: u8 = 2;
+/// The supervisor intervened, and `--fail-on-intervention` was given.
+pub const INTERVENED: u8 = 3;
+
+/// What a command came to: an exit code, or what was bad.
+pub type Outcome = Result<u8, Box<dyn std::error::Error>>;
+
+/// Runs the command.
+#[must_use]
+pub fn run(cli: &Cli) -> ExitCode {
+    let outcome = match &cli.command {
+        None => drives::run(),
+        Some(Command::Replay(arguments)) => replay::run(arguments),
+        Some(Command::Limits(arguments)) => limits::run(arguments),
+        Some(Command::Config(command)) => config::run(command),
+        Some(Command::Analysis(arguments)) => analysis::run(arguments),
+        Some(Command::Prove(arguments)) => prove::run(arguments),
+    };
+    match outcome {
+        Ok(code) => ExitCode::from(code),
+        // Whoever reads our output has read enough.
+        Err(error) if is_broken_pipe(error.as_ref()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("supervise: {error}");
+            ExitCode::from(BAD)
+        }
+    }
+}
+
+fn is_broken_pipe(error: &(dyn std::error::Error + 'static)) -> bool {
+    error.downcast_ref::<io::Error>().is_some_and(|error| error.kind() == io::ErrorKind::BrokenPipe)
+}
+
+/// Prints to the standard output.
+fn print(text: impl Display) -> io::Result<()> {
+    let mut out = io::stdout().lock();
+    write!(out, "{text}")?;
+    out.flush()
+}

@@ -1,0 +1,91 @@
+//! S1 §3.1.2: warnings and the three levels of collision mitigation.
+
+use supervisor::{Class, RadarObject, Scene};
+
+use super::sources::{
+    CERTAIN_UPDATES, CORRIDOR_CM, FORWARD, LEVEL_ANGLE, LEVEL_DECEL, LEVEL_EXIT_ANGLE, LEVEL_GONE_MS,
+    LEVEL_LEAST_SPEED, LEVEL_REST_MS, LEVEL_TTC_MS, PEDESTRIAN,
+};
+use super::view::{Held, View};
+
+/// The levels that run, and the warnings.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Mitigation {
+    latches: [bool; 3],
+    gone: Held,
+    rest: Held,
+    /// Forward-collision warning.
+    pub forward: bool,
+    /// Pedestrian-collision warning.
+    pub pedestrian: bool,
+}
+
+/// T < `limit`, in whole numbers: distance in cm, closing speed in cm/s, limit in ms.
+fn earlier(object: &RadarObject, limit: i64) -> bool {
+    let closing = i64::from(object.closing.raw());
+    closing > 0 && i64::from(object.distance.raw()) * 1000 < limit * closing
+}
+
+/// T ≤ `limit`.
+fn earlier_or_at(object: &RadarObject, limit: i64) -> bool {
+    let closing = i64::from(object.closing.raw());
+    closing > 0 && i64::from(object.distance.raw()) * 1000 <= limit * closing
+}
+
+fn certain(object: &RadarObject) -> bool {
+    object.class != Class::Unmatched || object.updates.raw() >= CERTAIN_UPDATES
+}
+
+impl Mitigation {
+    /// One cycle. `by_driver` says whether the driver steers.
+    pub fn update(&mut self, scene: &Scene, view: &View, by_driver: bool) {
+        let objects: &[RadarObject] = if scene.radar_known { &scene.radar } else { &[] };
+        let known = scene.radar_known && scene.camera_known;
+        let ahead = || objects.iter().filter(|o| o.offset.raw().unsigned_abs() <= CORRIDOR_CM && certain(o));
+        self.gone.update(known && !ahead().any(|object| object.closing.raw() > 0));
+        self.rest.update(view.stands);
+
+        let [one, two, three] = LEVEL_TTC_MS;
+        let due = [
+            ahead().any(|object| earlier(object, one)),
+            ahead().any(|object| earlier_or_at(object, two)),
+            ahead().any(|object| earlier_or_at(object, three)),
+        ];
+        let fast = view.speed.is_some_and(|speed| speed >= LEVEL_LEAST_SPEED);
+        let over = self.rest.for_at_least(LEVEL_REST_MS);
+        let gone = self.gone.for_at_least(LEVEL_GONE_MS);
+        // Level 3 ends by neither the road nor the driver's steering: no exit angle.
+        let exits = [Some(LEVEL_EXIT_ANGLE[0]), Some(LEVEL_EXIT_ANGLE[1]), None];
+        for (((latch, due), least), exit) in self.latches.iter_mut().zip(due).zip(LEVEL_ANGLE).zip(exits) {
+            let enters = due && fast && view.angle.is_some_and(|angle| angle < least);
+            let steered = |limit| gone || (by_driver && view.angle.is_some_and(|angle| angle > limit));
+            let leaves = over || exit.is_some_and(steered);
+            *latch = enters || (*latch && !leaves);
+        }
+
+        let warn = |on: bool, pedestrian: bool, (begin, end, offset): (i64, i64, u16)| {
+            let of_kind = |object: &&RadarObject| {
+                certain(object)
+                    && (object.class == Class::Pedestrian) == pedestrian
+                    && object.offset.raw().unsigned_abs() < offset
+            };
+            let begins = objects.iter().filter(of_kind).any(|object| earlier(object, begin));
+            let holds = !known || objects.iter().filter(of_kind).any(|object| earlier_or_at(object, end));
+            begins || (on && holds)
+        };
+        self.forward = warn(self.forward, false, FORWARD);
+        self.pedestrian = warn(self.pedestrian, true, PEDESTRIAN);
+    }
+
+    /// Any level runs: the accelerator has no effect.
+    #[must_use]
+    pub fn running(&self) -> bool {
+        self.latches.contains(&true)
+    }
+
+    /// The deceleration asked for, in m/s².
+    #[must_use]
+    pub fn demand(&self) -> f64 {
+        self.latches.iter().zip(LEVEL_DECEL).filter(|(on, _)| **on).map(|(_, decel)| decel).fold(0.0, f64::max)
+    }
+}

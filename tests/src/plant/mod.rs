@@ -1,0 +1,262 @@
+//! The bus: a deterministic longitudinal model, 1 ms inside, that obeys the supervisor's outputs and produces what
+//! its sensors say.
+//!
+//! One mass on a slope; drive, electric and friction brake, retarder, parking brake; gearbox, contactors, loads;
+//! a driver with hands and feet; obstacles seen by radar and camera. No noise: two runs are the same to the last
+//! bit (IEEE 754 sums and products only).
+
+mod parameters;
+mod parts;
+mod sense;
+
+pub use parameters::Parameters;
+pub use parts::{DeadTime, Lag, Mover, STEP_S};
+
+use supervisor::{
+    BrakeMode, ContactorRequest, DrivingMode, EpbRequest, EpbState, Gear, GearRequest, Outputs, RetarderMode,
+};
+
+use crate::driver::{Driver, Script};
+use crate::number::nearest;
+use crate::road::{Eyes, Obstacle};
+
+/// Gravity, in m/s².
+const GRAVITY: f64 = 9.81;
+/// Milliseconds of the model in one cycle of the supervisor.
+pub const CYCLE_MS: u32 = 10;
+
+/// The truth of one moment, for pictures and for judging whether the bus stayed safe.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Truth {
+    /// Speed in m/s, forward positive.
+    pub speed: f64,
+    /// Acceleration in m/s².
+    pub acceleration: f64,
+    /// Way driven, in m.
+    pub position: f64,
+    /// Gap to the nearest obstacle present ahead, in m; negative after a collision.
+    pub gap: Option<f64>,
+    /// The seat sensors see a driver.
+    pub seat: [bool; 2],
+    /// The parking brake, `None` on its way.
+    pub epb: Option<EpbState>,
+    /// The gear engaged.
+    pub gear: Gear,
+    /// K1 and K4 are closed.
+    pub closed: [bool; 2],
+    /// The steering-wheel angle in degrees.
+    pub angle: f64,
+}
+
+/// The bus, its driver and its road.
+#[derive(Clone, Debug)]
+pub struct Plant<'a> {
+    parameters: Parameters,
+    now_ms: u32,
+    driver: Driver<'a>,
+    road: Vec<Obstacle>,
+    eyes: Eyes,
+    position: f64,
+    speed: f64,
+    acceleration: f64,
+    measured_deceleration: Lag,
+    drive: Lag,
+    dead: DeadTime,
+    friction: Lag,
+    electric: Lag,
+    retarder: Lag,
+    angle: f64,
+    epb: Mover<EpbState>,
+    gear: Mover<Gear>,
+    k1: Mover<bool>,
+    k4: Mover<bool>,
+    /// Milliseconds since K4 opened.
+    unpowered_ms: u32,
+    current: Lag,
+    steers: bool,
+    automated: bool,
+}
+
+impl<'a> Plant<'a> {
+    /// Parked: parking brake applied, neutral, both contactors open.
+    #[must_use]
+    pub fn new(parameters: Parameters, script: Script<'a>, road: &[Obstacle]) -> Self {
+        let dead = usize::try_from(nearest(parameters.brake_dead_s / STEP_S)).unwrap_or(0);
+        Self {
+            parameters,
+            now_ms: 0,
+            driver: Driver::new(script),
+            road: road.to_vec(),
+            eyes: Eyes::new(road.len()),
+            position: 0.0,
+            speed: 0.0,
+            acceleration: 0.0,
+            measured_deceleration: Lag::default(),
+            drive: Lag::default(),
+            dead: DeadTime::new(dead),
+            friction: Lag::default(),
+            electric: Lag::default(),
+            retarder: Lag::default(),
+            angle: 0.0,
+            epb: Mover::new(EpbState::Applied),
+            gear: Mover::new(Gear::Neutral),
+            k1: Mover::new(false),
+            k4: Mover::new(false),
+            unpowered_ms: parameters.auxiliaries_stop_ms,
+            current: Lag::default(),
+            steers: false,
+            automated: false,
+        }
+    }
+
+    /// One cycle of 10 ms under these outputs.
+    pub fn advance(&mut self, outputs: &Outputs) {
+        self.command(outputs);
+        for _ in 0..CYCLE_MS {
+            self.now_ms += 1;
+            self.driver.tick(self.now_ms, self.speed);
+            self.tick(outputs);
+            self.forget_behind();
+            self.eyes.sample(self.now_ms, &self.road, self.position, self.speed, &self.parameters);
+        }
+    }
+
+    /// Who steps onto the road beside or behind the front of the bus is not ahead of it.
+    fn forget_behind(&mut self) {
+        let (now_ms, front) = (self.now_ms, self.position);
+        for obstacle in self.road.iter_mut().filter(|obstacle| obstacle.from_ms == now_ms) {
+            if obstacle.rear(now_ms) <= front {
+                obstacle.until_ms = now_ms;
+            }
+        }
+    }
+
+    /// Requests that set something in motion.
+    fn command(&mut self, outputs: &Outputs) {
+        let p = &self.parameters;
+        match outputs.epb.request {
+            EpbRequest::None => {}
+            EpbRequest::Apply => self.epb.aim(EpbState::Applied, p.parking_ms),
+            EpbRequest::Release => self.epb.aim(EpbState::Released, p.parking_ms),
+        }
+        let gear = match outputs.gear {
+            GearRequest::Hold => None,
+            GearRequest::Drive => Some(Gear::Drive),
+            GearRequest::Reverse => Some(Gear::Reverse),
+            GearRequest::Neutral => Some(Gear::Neutral),
+            GearRequest::Park => Some(Gear::Park),
+        };
+        if let Some(gear) = gear {
+            self.gear.aim(gear, p.gearbox_ms);
+        }
+        for (contactor, request) in [(&mut self.k1, outputs.contactors.k1), (&mut self.k4, outputs.contactors.k4)] {
+            match request {
+                ContactorRequest::Hold => {}
+                ContactorRequest::Open => contactor.aim(false, p.contactor_open_ms),
+                ContactorRequest::Close => contactor.aim(true, p.contactor_close_ms),
+            }
+        }
+        self.automated = outputs.mode == DrivingMode::Automated;
+        self.steers = outputs.steering.enable && outputs.steering.weight.raw() > 0;
+        if self.steers {
+            let step = f64::from(outputs.steering.rate.raw()) / 10.0 * f64::from(CYCLE_MS) / 1000.0;
+            let target = f64::from(outputs.steering.angle.raw()) / 10.0;
+            self.angle += (target - self.angle).clamp(-step, step);
+        }
+    }
+
+    /// One millisecond of physics.
+    fn tick(&mut self, outputs: &Outputs) {
+        let p = self.parameters;
+        self.epb.tick();
+        self.gear.tick();
+        self.k1.tick();
+        self.k4.tick();
+        let powered = self.k1.position() && self.k4.position();
+        self.unpowered_ms = if powered { 0 } else { self.unpowered_ms.saturating_add(1) };
+
+        // Drive: only with high voltage, and in the direction of the gear.
+        let direction = match self.gear.position() {
+            Gear::Drive => 1.0,
+            Gear::Reverse => -1.0,
+            Gear::Neutral | Gear::Park => 0.0,
+        };
+        let asked = if powered && direction != 0.0 { f64::from(outputs.drive.torque.raw()) / 100.0 } else { 0.0 };
+        let ceiling = p.full_power_w / (p.full_force_n * self.speed.abs().max(0.1));
+        let drive_force = self.drive.follow(asked.min(ceiling), p.drive_lag_s) * p.full_force_n * direction;
+
+        let braking = self.braking(outputs);
+        let traction = drive_force * self.speed - p.mass_kg * self.electric.value() * self.speed.abs();
+        let auxiliaries = if powered { p.auxiliaries_w } else { 0.0 };
+        let power = if powered { traction + auxiliaries } else { 0.0 };
+        self.current.follow(power / p.battery_v, 0.03);
+
+        // Longitudinal balance; what brakes never reverses.
+        let weight = p.mass_kg * GRAVITY;
+        let pull = drive_force - weight * p.slope;
+        let resist = weight * p.rolling + p.drag * self.speed * self.speed + p.mass_kg * braking;
+        let inertia = p.mass_kg * p.rotating;
+        let before = self.speed;
+        let free = before + pull / inertia * STEP_S;
+        let loss = resist / inertia * STEP_S;
+        self.speed = if free.abs() <= loss { 0.0 } else { free - loss * free.signum() };
+        self.acceleration = (self.speed - before) / STEP_S;
+        self.position += f64::midpoint(before, self.speed) * STEP_S;
+        self.measured_deceleration.follow(-self.acceleration * before.signum(), 0.03);
+    }
+
+    /// Deceleration by all brakes, in m/s².
+    fn braking(&mut self, outputs: &Outputs) -> f64 {
+        let p = self.parameters;
+        let request = f64::from(outputs.brake.total.raw()) / 2048.0;
+        let pedal = self.driver.brake * 6.0;
+        // J1939 XBR: the greater of both, or the sum, or the driver alone.
+        let demand = match outputs.brake.mode {
+            BrakeMode::Off => pedal,
+            BrakeMode::Addition => pedal + request,
+            BrakeMode::Maximum => pedal.max(request),
+        };
+        let share = (f64::from(outputs.brake.electric.raw()) / 2048.0).min(self.electric_limit()).min(demand);
+        let electric = self.electric.follow(share, p.electric_lag_s);
+        let delayed = self.dead.pass(demand);
+        // The brake system closes the loop on the total: friction supplies what the electric part does not.
+        let friction = self.friction.follow((delayed - electric).clamp(0.0, p.friction_decel), p.brake_lag_s);
+        let wanted =
+            if outputs.retarder.mode == RetarderMode::Off { 0.0 } else { f64::from(outputs.retarder.torque.raw()) };
+        let turning = if self.speed.abs() > 1.0 { wanted / 100.0 * p.retarder_decel } else { 0.0 };
+        let retarder = self.retarder.follow(turning, p.retarder_lag_s);
+        let parking = match (self.epb.position(), self.epb.moving()) {
+            (EpbState::Applied, false) => p.parking_decel,
+            (EpbState::Applied | EpbState::Released, _) => 0.0,
+        };
+        electric + friction + retarder + parking
+    }
+
+    /// Electric deceleration available now, in m/s²: with high voltage, in gear, fading out below 10 km/h.
+    fn electric_limit(&self) -> f64 {
+        let coupled = matches!(self.gear.position(), Gear::Drive | Gear::Reverse);
+        if self.k1.position() && self.k4.position() && coupled {
+            self.parameters.electric_decel * ((self.speed.abs() * 3.6 - 3.0) / 7.0).clamp(0.0, 1.0)
+        } else {
+            0.0
+        }
+    }
+
+    /// The truth of this moment.
+    #[must_use]
+    pub fn truth(&self) -> Truth {
+        let gaps = self.road.iter().filter(|obstacle| obstacle.present(self.now_ms));
+        let gap = gaps.map(|obstacle| obstacle.rear(self.now_ms) - self.position).reduce(f64::min);
+        Truth {
+            speed: self.speed,
+            acceleration: self.acceleration,
+            position: self.position,
+            gap,
+            seat: self.driver.seat(self.now_ms),
+            epb: (!self.epb.moving()).then_some(self.epb.position()),
+            gear: self.gear.position(),
+            closed: [self.k1.position(), self.k4.position()],
+            angle: self.angle,
+        }
+    }
+}
