@@ -56,7 +56,10 @@ Time: the supervisor steps every 10 ms of log time, after the frames up to then.
 leaps ahead by more than an hour, is named with file and line; the supervisor gets the time as it is (SELF-3).
 
 Lines that are not understood, unknown identifiers, refused frames and truncated files are counted and named, and \
-never end the replay.";
+never end the replay.
+
+The JSON document (--json) is written while the replay goes on, one event per line; its schema is described in \
+safety-case/src/document.rs.";
 
 /// The program.
 #[derive(Debug, Parser)]

@@ -1,6 +1,6 @@
 //! Which fields of a command with many fields were changed: which contactor, which lamp.
 
-use supervisor::{Auxiliaries, Body, Channel, Command, Commands, Contactors, Outputs, Warnings};
+use supervisor::{Auxiliaries, Body, Channel, Command, Commands, Contactors, Outputs, Rejection, Warnings};
 
 use crate::road::snake;
 
@@ -28,6 +28,31 @@ macro_rules! compare {
         })+
         fields
     }};
+}
+
+/// Why the frame of a channel's command was refused, if it was.
+#[must_use]
+pub const fn rejection(channel: Channel, asked: &Commands) -> Option<Rejection> {
+    const fn of<T: Copy>(command: &Command<T>) -> Option<Rejection> {
+        match command {
+            Command::Rejected(why) => Some(*why),
+            Command::Absent | Command::Fresh(_) | Command::Held(..) => None,
+        }
+    }
+    match channel {
+        Channel::DriveTorque => of(&asked.drive),
+        Channel::TargetSpeed => of(&asked.target_speed),
+        Channel::ServiceBrake => of(&asked.brake),
+        Channel::Retarder => of(&asked.retarder),
+        Channel::Gear => of(&asked.gear),
+        Channel::ParkingBrake => of(&asked.epb),
+        Channel::Steering => of(&asked.steering),
+        Channel::Contactors => of(&asked.contactors),
+        Channel::Auxiliaries => of(&asked.auxiliaries),
+        Channel::Warnings => of(&asked.warnings),
+        Channel::Body => of(&asked.body),
+        Channel::Mode => of(&asked.mode),
+    }
 }
 
 /// What was changed, "K4: asked close, given hold", or nothing for a channel whose verdict says it all.

@@ -19,16 +19,17 @@
 //!   lane begins. An event is written when it ends, so the list is in the order of `until`.
 //! - A verdict is one stretch of one kind and reason; its numbers are those of its smallest margin. `value`,
 //!   `limit`, `margin` are numbers in `unit`, or, with `"unit":"name"`, the names of what was asked for and given;
-//!   they are missing where the verdict has none. `raw` is what the core says, in the bits of the field.
+//!   they are missing where the verdict has none. `fields` names what was changed in a command of many fields,
+//!   `rejection` why its frame was refused. `raw` is what the core says, in the bits of the field.
 //! - An intervention is a stretch of more than three cycles of one channel without a pass; see `stretches.rs`.
 //! - Fields may be added in the same version; none is renamed or removed.
 
 use std::io::{self, Write};
 
 use serde_json::{Value, json};
-use supervisor::Kind;
+use supervisor::{Kind, Reason};
 
-use crate::difference::difference;
+use crate::difference::{difference, rejection};
 use crate::lanes::{Group, LANES, channel, verdict};
 use crate::number::seconds;
 use crate::physical::{Quantity, physical, quantity};
@@ -139,6 +140,9 @@ pub fn event(run: &Run) -> Value {
     let (Some(detail), Some(fields)) = (&run.detail, event.as_object_mut()) else { return event };
     let worst = &detail.worst;
     let mut add = |name: &str, value: Value| fields.insert(name.to_owned(), value);
+    if let Some(why) = rejection(channel, &detail.asked).filter(|_| reason == Reason::CommandRejected) {
+        add("rejection", snake(&why).into());
+    }
     match quantity(channel, worst) {
         Quantity::Nothing => return event,
         Quantity::Number(unit, per_unit, _) => {

@@ -5,7 +5,7 @@
 
 use supervisor::{BrakeMode, Channel, ContactorRequest, DrivingMode, EpbRequest, GearRequest, Kind, Reason, Verdict};
 
-use crate::difference::difference;
+use crate::difference::{difference, rejection};
 use crate::road::snake;
 use crate::runs::Detail;
 use crate::words;
@@ -107,6 +107,9 @@ pub fn sentence(channel: Channel, detail: &Detail) -> String {
 /// What was asked for and what went out, in words; empty if the verdict says nothing of it.
 #[must_use]
 pub fn facts(channel: Channel, detail: &Detail) -> String {
+    if detail.worst.reason == Reason::CommandRejected {
+        return rejection(channel, &detail.asked).map(words::rejection).unwrap_or_default().to_owned();
+    }
     let numbers = numbers(channel, &detail.worst, detail.usable);
     if numbers.is_empty() {
         return numbers;

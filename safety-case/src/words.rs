@@ -1,6 +1,6 @@
 //! Words for people: channels, verdicts, reasons with their requirement, faults, causes.
 
-use supervisor::{Cause, Channel, Kind, Reason};
+use supervisor::{Cause, Channel, Kind, Reason, Rejection};
 
 /// A channel.
 #[must_use]
@@ -42,6 +42,18 @@ pub const fn cause(cause: Cause) -> &'static str {
         Cause::OutOfRange => "out of range",
         Cause::NotAvailable => "sent as error or not available",
         Cause::Requalifying => "back, but not yet requalified",
+    }
+}
+
+/// Why a frame was refused.
+#[must_use]
+pub const fn rejection(rejection: Rejection) -> &'static str {
+    match rejection {
+        Rejection::Checksum => "wrong checksum",
+        Rejection::Counter => "counter repeated, lost or out of order",
+        Rejection::Field => "a value that the channel does not have",
+        Rejection::Form => "wrong length or reserved bits",
+        Rejection::Requalifying => "first after a gap, its counter not yet seen to run",
     }
 }
 

@@ -19,6 +19,34 @@
       annotations: layout.annotations.map((note, index) => ({ ...note, text: small ? titles[index].split("   ")[0].replace(/, time to.*right\]/, ", time [s]") : titles[index] })),
     };
   };
+  // Words stand in a bar where they fit, and stay in sight while it does.
+  const words = {
+    type: "scatter", mode: "text", x: [], y: [], text: [], textposition: "middle right", hoverinfo: "skip",
+    textfont: { size: 9.5, color: [] }, xaxis: "x", yaxis: "y7", showlegend: false,
+  };
+  const bars = data.filter((trace) => trace.type === "bar");
+  data.push(words);
+  const letter = 5.4;
+  function label() {
+    const axis = figure._fullLayout.xaxis;
+    const [left, right] = axis.range;
+    const pixels = axis._length / (right - left);
+    const found = { x: [], y: [], text: [], color: [] };
+    for (const trace of bars) {
+      trace.text.forEach((text, index) => {
+        const start = Math.max(left, trace.base[index]);
+        const end = Math.min(right, trace.base[index] + trace.x[index]);
+        if (text && (end - start) * pixels > text.length * letter + 10) {
+          found.x.push(start);
+          found.y.push(trace.y[index]);
+          found.text.push(text);
+          found.color.push(trace.textfont.color);
+        }
+      });
+    }
+    Plotly.restyle(figure, { x: [found.x], y: [found.y], text: [found.text], "textfont.color": [found.color] }, [data.length - 1]);
+  }
+
   Plotly.newPlot(figure, data, layout, {
     ...FIGURE.config,
     modeBarButtonsToRemove: ["select2d", "lasso2d", "autoScale2d"],
@@ -31,6 +59,7 @@
         Plotly.relayout(figure, fitted());
       }
     };
+    figure.on("plotly_relayout", label);
     fit();
     window.addEventListener("resize", fit);
     figure.on("plotly_doubleclick", () => { zoom(from, to); return false; });
@@ -53,16 +82,18 @@
     return low - 1;
   }
 
-  const curves = data.filter((trace) => trace.type === "scatter" && trace.name);
+  const curves = data.filter((trace) => trace.type === "scatter" && trace.mode === "lines" && trace.name);
   const shown = ["seat", "mitigation level", "mode", "EPB given", "EPB confirmed", "gear confirmed", "K4 confirmed", "K1 confirmed"];
   const lanes = [];
-  for (const trace of data.filter((trace) => trace.type === "bar")) {
+  for (const trace of bars) {
     trace.y.forEach((y, index) => {
       const lane = shown.indexOf(names[y]);
       if (lane >= 0) (lanes[lane] ??= []).push([trace.base[index], trace.base[index] + trace.x[index], trace.hovertext[index]]);
     });
   }
   lanes.forEach((bars) => bars && bars.sort((a, b) => a[0] - b[0]));
+
+  const starts = lanes.map((bars) => bars && bars.map((each) => each[0]));
 
   function at(t) {
     const parts = [`<span class="t">${t.toFixed(2)} s</span>`];
@@ -74,7 +105,7 @@
     shown.forEach((name, lane) => {
       const bars = lanes[lane];
       if (!bars) return;
-      const bar = bars[before(bars.map((each) => each[0]), t)];
+      const bar = bars[before(starts[lane], t)];
       if (bar && t < bar[1]) parts.push(`<span><em>${name}</em> ${bar[2].split("<br>")[1]}</span>`);
     });
     return parts.join("");

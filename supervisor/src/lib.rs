@@ -44,9 +44,15 @@ impl Supervisor {
     /// `now` is in milliseconds and may wrap. Total: any values give a decision.
     #[must_use]
     pub fn step(&mut self, now: Millis, inputs: &Inputs, scene: &Scene, commands: &Commands) -> Decision {
-        // A configuration that changed leads to the safe state in `step`; perception then uses the defaults.
-        let threat = perceive(scene, self.sealed.intact().unwrap_or(&Config::DEFAULT));
+        let threat = perceive(scene, self.config());
         step(&mut self.image, &self.sealed, now, inputs, &threat, commands)
+    }
+
+    /// The configuration. One that has changed since it was checked leads to the safe state in
+    /// [`step`](Self::step); the defaults stand in for it.
+    #[must_use]
+    pub fn config(&self) -> &Config {
+        self.sealed.intact().unwrap_or(&Config::DEFAULT)
     }
 
     /// The retained state at rest, for fault injection and diagnosis.

@@ -237,7 +237,7 @@ fn with_adas_torque_the_accelerator_overrides_beyond_torque_and_offset() {
     }
 }
 
-/// TRQ-4a, TRQ-2a: torque without its active flag, and the driver's own, is no ADAS torque: MinTorq decides.
+/// TRQ-4a, TRQ-2a: torque without its active flag, and the driver's own, is no ADAS torque: the least override torque decides.
 #[test]
 fn torque_that_does_not_count_does_not_raise_the_override() {
     for (active, origin) in [(false, Origin::Adas), (false, Origin::Epbi), (true, Origin::Driver)] {

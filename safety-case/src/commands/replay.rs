@@ -84,13 +84,13 @@ pub fn timeline((entries, left_out): &(Vec<Entry>, u64), json: Option<&Path>) ->
 #[must_use]
 pub fn summary(report: &Report) -> String {
     let mut text = report.summary.table();
+    text.push('\n');
     let (from, to) = (seconds(report.span.0), seconds(report.span.1));
     let rate = rounded(report.rate()).and_then(|rate| u64::try_from(rate).ok()).unwrap_or(0);
     let interventions = report.summary.interventions();
     let mut line = |what: &str, value: String| {
         let _ = writeln!(text, "{what:<15}{value}");
     };
-    line("", String::new());
     line("replayed", format!("{from:.2}–{to:.2} s, {} cycles, decoded as {}", grouped(report.cycles), report.mapping));
     line(
         "",

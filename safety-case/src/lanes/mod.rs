@@ -8,7 +8,9 @@ mod text;
 use std::borrow::Cow;
 use std::sync::LazyLock;
 
-use supervisor::{Channel, Command, Contact, DrivingMode, EpbState, Faults, Gear, GearRequest, Key, Seat, Signal};
+use supervisor::{
+    Channel, Command, Contact, DrivingMode, EpbState, Faults, Gear, GearRequest, Key, Kind, Seat, Signal,
+};
 
 use crate::cycle::Cycle;
 use crate::words;
@@ -96,6 +98,20 @@ impl Lane {
             None => (self.text)(code),
         }
     }
+
+    /// A word or two to stand in a bar; empty for what is as it should be.
+    #[must_use]
+    pub fn label(&self, code: u16) -> Cow<'static, str> {
+        match (self.channel, verdict(code)) {
+            (Some(_), (Kind::Pass, _)) => Cow::Borrowed(""),
+            (Some(_), (_, reason)) => words::reason(reason).0.into(),
+            (None, _) if self.group == Group::Fault || self.group == Group::Warning => Cow::Borrowed(""),
+            (None, _) if cause(code).is_none() && (self.tone)(code) == Tone::Good && self.group == Group::Input => {
+                (self.text)(code).replace("known", "").into()
+            }
+            (None, _) => (self.text)(code),
+        }
+    }
 }
 
 /// A row of the table: group, key, title, text, tone.
@@ -124,16 +140,16 @@ lanes! {
     }
     Actuator {
         "epb_asked", "EPB asked", epb_request, note, |c| asked(c.commands.epb, |epb| epb.request.code());
-        "epb_given", "EPB given", epb_request, alarm, |c| c.decision.outputs.epb.request.code().into();
+        "epb_given", "EPB given", epb_request, note, |c| c.decision.outputs.epb.request.code().into();
         "epb_confirmed", "EPB confirmed", epb, state_tone, |c| known(c.inputs.epb, EpbState::code);
         "gear_asked", "gear asked", gear_request, note, |c| asked(c.commands.gear, GearRequest::code);
         "gear_given", "gear given", gear_request, note, |c| c.decision.outputs.gear.code().into();
         "gear_confirmed", "gear confirmed", gear, state_tone, |c| known(c.inputs.gear, Gear::code);
         "k4_asked", "K4 asked", contactor, note, |c| asked(c.commands.contactors, |both| both.k4.code());
-        "k4_given", "K4 given", contactor, alarm, |c| c.decision.outputs.contactors.k4.code().into();
+        "k4_given", "K4 given", contactor, note, |c| c.decision.outputs.contactors.k4.code().into();
         "k4_confirmed", "K4 confirmed", contact, state_tone, |c| known(c.inputs.k4, Contact::code);
         "k1_asked", "K1 asked", contactor, note, |c| asked(c.commands.contactors, |both| both.k1.code());
-        "k1_given", "K1 given", contactor, alarm, |c| c.decision.outputs.contactors.k1.code().into();
+        "k1_given", "K1 given", contactor, note, |c| c.decision.outputs.contactors.k1.code().into();
         "k1_confirmed", "K1 confirmed", contact, state_tone, |c| known(c.inputs.k1, Contact::code);
         "mode_asked", "mode asked", driving_mode, note, |c| asked(c.commands.mode, DrivingMode::code);
     }

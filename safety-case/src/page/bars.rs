@@ -83,6 +83,15 @@ impl Bar {
         self.parts.iter().map(|part| (lane.tone)(part.code)).max_by_key(|tone| gravity(*tone)).unwrap_or(Tone::Idle)
     }
 
+    /// What stands in it, if it is of one kind.
+    #[must_use]
+    pub fn label(&self, lane: &Lane) -> String {
+        match self.parts.as_slice() {
+            [only] => lane.label(only.code).into_owned(),
+            _ => String::new(),
+        }
+    }
+
     /// What it says on hover.
     #[must_use]
     pub fn hover(&self, lane: &Lane) -> String {

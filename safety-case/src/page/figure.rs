@@ -86,7 +86,11 @@ fn axis_of(row: Row) -> usize {
 /// Makes the figure.
 #[must_use]
 pub fn figure(trends: &[Trend], lanes: Vec<Bars>, picture: &Picture<'_>) -> Figure {
-    let shown = |row: Row| SERIES.iter().zip(trends).any(|(series, trend)| series.row == row && !trend.is_empty());
+    // A row with nothing but a second source or a bound shows nothing.
+    let tells = |series: &Series| series.row != Row::Steering || series.stroke != Stroke::Dotted;
+    let shown = |row: Row| {
+        SERIES.iter().zip(trends).any(|(series, trend)| series.row == row && tells(series) && !trend.is_empty())
+    };
     let panels: Vec<&Panel> = PANELS.iter().filter(|panel| shown(panel.row)).collect();
     let Slots { drawn: slots, never, steady } = slots(lanes);
     let lanes_height = float(u64::try_from(slots.len()).unwrap_or(0)) * LANE;
@@ -149,7 +153,7 @@ pub fn figure(trends: &[Trend], lanes: Vec<Bars>, picture: &Picture<'_>) -> Figu
     plot.set_layout(layout);
     plot.set_configuration(Configuration::new().responsive(true).display_logo(false).typeset_math(false));
 
-    for (series, trend) in SERIES.iter().zip(trends).filter(|(_, trend)| !trend.is_empty()) {
+    for (series, trend) in SERIES.iter().zip(trends).filter(|(series, trend)| shown(series.row) && !trend.is_empty()) {
         plot.add_trace(line(series, trend));
     }
     // The axis above is drawn only if something is on it.

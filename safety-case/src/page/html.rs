@@ -117,7 +117,7 @@ pub fn page(figure: &Figure, picture: &Picture<'_>) -> Result<String, minijinja:
         {"label": "frames refused", "value": grouped(refused), "class": if refused == 0 { "" } else { "caution" }},
         {"label": "lines not understood", "value": grouped(report.notes.malformed())},
     ]);
-    let tones: Vec<_> = TONES.iter().map(|(_, name, colour)| json!({"name": name, "colour": colour})).collect();
+    let tones: Vec<_> = TONES.iter().map(|(_, name, colour, _)| json!({"name": name, "colour": colour})).collect();
     let kinds = KINDS.map(|(class, label)| json!({"class": class, "label": label}));
     let context = json!({
         "title": picture.title,
@@ -126,6 +126,7 @@ pub fn page(figure: &Figure, picture: &Picture<'_>) -> Result<String, minijinja:
         "version": env!("CARGO_PKG_VERSION"),
         "cards": cards,
         "interventions": report.summary.interventions(),
+        "brief": report.summary.brief(),
         "longest": report.summary.longest(),
         "channels": channels(picture),
         "kinds": kinds,

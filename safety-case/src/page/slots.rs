@@ -21,6 +21,9 @@ pub(super) struct Stretches {
     y: Vec<usize>,
     width: f64,
     hovertext: Vec<String>,
+    text: Vec<String>,
+    textposition: &'static str,
+    textfont: Ink,
     hovertemplate: &'static str,
     hoverlabel: Label,
     marker: Marker,
@@ -33,6 +36,12 @@ pub(super) struct Stretches {
 struct Marker {
     color: &'static str,
     line: Edge,
+}
+
+#[derive(Clone, Debug, Default, Serialize)]
+struct Ink {
+    color: &'static str,
+    size: f64,
 }
 
 #[derive(Clone, Debug, Default, Serialize)]
@@ -53,14 +62,14 @@ impl Trace for Stretches {
     }
 }
 
-/// The tones that are drawn, in the order of the legend: name and colour.
-pub const TONES: &[(Tone, &str, &str)] = &[
-    (Tone::Good, "pass, or as it should be", "#bfe3c8"),
-    (Tone::Note, "worth seeing", "#8fb8de"),
-    (Tone::Caution, "limit, requalifying, fault", "#f0b429"),
-    (Tone::Alarm, "substitute, obligation, signal lost", "#d1344b"),
-    (Tone::Refusal, "block", "#7b5ea7"),
-    (Tone::Void, "no command, not available", "#d5dae1"),
+/// The tones that are drawn, in the order of the legend: name, colour, colour of the words in it.
+pub const TONES: &[(Tone, &str, &str, &str)] = &[
+    (Tone::Good, "pass, or as it should be", "#bfe3c8", "#33563f"),
+    (Tone::Note, "worth seeing", "#8fb8de", "#1c3f63"),
+    (Tone::Caution, "limit, requalifying, fault", "#f0b429", "#4d3600"),
+    (Tone::Alarm, "substitute, obligation, signal lost", "#d1344b", "#ffffff"),
+    (Tone::Refusal, "block", "#7b5ea7", "#ffffff"),
+    (Tone::Void, "no command, not available", "#d5dae1", "#5d6b80"),
 ];
 
 /// A line of the lanes' part: a heading, or a lane with its bars.
@@ -119,7 +128,7 @@ pub(super) fn slots(lanes: Vec<Bars>) -> Slots {
 /// One trace per tone.
 pub(super) fn stretches(slots: &[Slot]) -> Vec<Stretches> {
     let mut traces: Vec<(Tone, Stretches)> =
-        TONES.iter().map(|(tone, name, colour)| (*tone, empty(name, colour))).collect();
+        TONES.iter().map(|(tone, name, colour, ink)| (*tone, empty(name, colour, ink))).collect();
     for (y, slot) in slots.iter().enumerate() {
         let Slot::Lane(lane, bars) = slot else { continue };
         for bar in bars {
@@ -129,18 +138,22 @@ pub(super) fn stretches(slots: &[Slot]) -> Vec<Stretches> {
             trace.x.push(seconds(bar.to.saturating_sub(bar.from)));
             trace.y.push(y);
             trace.hovertext.push(bar.hover(lane));
+            trace.text.push(bar.label(lane));
         }
     }
     traces.into_iter().map(|(_, trace)| trace).filter(|trace| !trace.x.is_empty()).collect()
 }
 
-fn empty(name: &'static str, colour: &'static str) -> Stretches {
+fn empty(name: &'static str, colour: &'static str, ink: &'static str) -> Stretches {
     Stretches {
         r#type: "bar",
         orientation: "h",
         name,
         width: 0.72,
         hovertemplate: "%{hovertext}<extra></extra>",
+        // The script of the page draws the words, where they fit.
+        textposition: "none",
+        textfont: Ink { color: ink, size: 9.5 },
         hoverlabel: Label { align: "left" },
         marker: Marker { color: colour, line: Edge { color: colour, width: 0.6 } },
         xaxis: "x",

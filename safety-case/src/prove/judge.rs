@@ -63,7 +63,7 @@ mod tests {
     use super::*;
     use serde_json::json;
 
-    fn export(status: &str, checks: Value) -> Value {
+    fn export(status: &str, checks: &Value) -> Value {
         json!({"verification_results": {"results": [{"harness_id": "h", "status": status, "checks": checks}]}})
     }
     fn check(category: &str, status: &str) -> Value {
@@ -72,36 +72,36 @@ mod tests {
 
     #[test]
     fn a_success_with_satisfied_covers_is_proved() {
-        let export = export("Success", json!([check("assertion", "Success"), check("cover", "Satisfied")]));
+        let export = export("Success", &json!([check("assertion", "Success"), check("cover", "Satisfied")]));
         assert_eq!(judge(&export, "h", true), Verdict::Proved);
     }
 
     #[test]
     fn an_unsatisfiable_cover_is_vacuous_though_kani_says_success() {
         for status in ["Unsatisfiable", "Unreachable", "Undetermined"] {
-            let export = export("Success", json!([check("assertion", "Success"), check("cover", status)]));
+            let export = export("Success", &json!([check("assertion", "Success"), check("cover", status)]));
             assert!(matches!(judge(&export, "h", true), Verdict::Vacuous(_)), "{status}");
         }
     }
 
     #[test]
     fn a_contradictory_assumption_is_vacuous() {
-        let export = export("Success", json!([check("assertion", "Unreachable")]));
+        let export = export("Success", &json!([check("assertion", "Unreachable")]));
         assert!(matches!(judge(&export, "h", false), Verdict::Vacuous(_)));
     }
 
     #[test]
     fn a_harness_that_must_reach_needs_a_cover() {
-        let export = export("Success", json!([check("assertion", "Success")]));
+        let export = export("Success", &json!([check("assertion", "Success")]));
         assert!(matches!(judge(&export, "h", true), Verdict::Vacuous(_)));
         assert_eq!(judge(&export, "h", false), Verdict::Proved);
     }
 
     #[test]
     fn failure_time_out_and_absence_are_not_proved() {
-        let failed = export("Failure", json!([check("assertion", "Failure")]));
+        let failed = export("Failure", &json!([check("assertion", "Failure")]));
         assert!(matches!(judge(&failed, "h", true), Verdict::Failed(_)));
-        let timeout = export("Failure", json!([]));
+        let timeout = export("Failure", &json!([]));
         assert!(matches!(judge(&timeout, "h", true), Verdict::Undetermined(_)));
         assert!(matches!(judge(&json!({}), "h", true), Verdict::Undetermined(_)));
         assert!(matches!(judge(&failed, "other", true), Verdict::Undetermined(_)));

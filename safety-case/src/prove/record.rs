@@ -122,7 +122,7 @@ fn read(path: &Path) -> Result<String, ProveError> {
     fs::read_to_string(path).map_err(|error| ProveError::File { path: path.to_owned(), error })
 }
 
-fn form(path: &Path, message: impl ToString) -> ProveError {
+fn form(path: &Path, message: &dyn std::fmt::Display) -> ProveError {
     ProveError::Form { path: path.to_owned(), message: message.to_string() }
 }
 
@@ -133,11 +133,11 @@ impl List {
     /// The file cannot be read, or names a harness twice.
     pub fn load(root: &Path) -> Result<Self, ProveError> {
         let path = root.join("proofs/harnesses.toml");
-        let list: Self = toml::from_str(&read(&path)?).map_err(|error| form(&path, error))?;
+        let list: Self = toml::from_str(&read(&path)?).map_err(|error| form(&path, &error))?;
         let mut names: Vec<_> = list.harness.iter().map(|harness| &harness.name).collect();
         names.sort();
         match names.windows(2).find(|pair| pair.first() == pair.last()) {
-            Some(pair) => Err(form(&path, format!("harness {pair:?} stands twice"))),
+            Some(pair) => Err(form(&path, &format!("harness {pair:?} stands twice"))),
             None => Ok(list),
         }
     }
@@ -153,7 +153,7 @@ impl Record {
         if !path.exists() {
             return Ok(Self { version: 1, ..Self::default() });
         }
-        serde_json::from_str(&read(&path)?).map_err(|error| form(&path, error))
+        serde_json::from_str(&read(&path)?).map_err(|error| form(&path, &error))
     }
 
     /// Writes it.
@@ -162,7 +162,7 @@ impl Record {
     /// The file cannot be written.
     pub fn save(&self, root: &Path) -> Result<(), ProveError> {
         let path = root.join("proofs/record.json");
-        let text = serde_json::to_string_pretty(self).map_err(|error| form(&path, error))?;
+        let text = serde_json::to_string_pretty(self).map_err(|error| form(&path, &error))?;
         fs::write(&path, text + "\n").map_err(|error| ProveError::File { path, error })
     }
 
@@ -201,7 +201,7 @@ pub fn sources_digest(root: &Path) -> Result<String, ProveError> {
             digest.update(b"\n");
         }
     }
-    Ok(digest.finalize().iter().map(|byte| format!("{byte:02x}")).collect())
+    Ok(format!("{:x}", digest.finalize()))
 }
 
 fn collect(folder: &Path, files: &mut Vec<PathBuf>) -> Result<(), ProveError> {

@@ -104,7 +104,9 @@ fn show(list: &List, record: &Record, sources: &str, say: &mut impl FnMut(&str))
 }
 
 fn run(root: &Path, harness: &Harness, sources: &str) -> Result<(Proof, Tools), ProveError> {
-    let export = root.join("target").join("kani-export.json");
+    let folder = root.join("target");
+    std::fs::create_dir_all(&folder).map_err(|error| ProveError::File { path: folder.clone(), error })?;
+    let export = folder.join("kani-export.json");
     // An old export would be read as this run's: it goes first.
     if export.exists() {
         std::fs::remove_file(&export).map_err(|error| ProveError::File { path: export.clone(), error })?;

@@ -310,7 +310,7 @@ mod tests {
                 "my.toml:5: unknown field `signl`",
             ),
         ] {
-            let error = made(mapping).map(|_| String::new()).unwrap_or_else(|error| error);
+            let error = made(mapping).map_or_else(|error| error, |_| String::new());
             assert!(error.starts_with(wanted), "{error}\n  instead of\n{wanted}");
         }
         let twice = "[[input]]\nfield = \"wheel_speed\"\nmessage = \"Motion\"\nsignal = \"Speed\"\n".repeat(2);

@@ -55,7 +55,7 @@ impl SeatState {
 
 /// *Not parked* = powered on and (EPB known not applied, or speed known ≥ 1.5 km/h).
 ///
-/// *Powered on* is read both ways of S3's 上电: the key is on, or the battery's main contactor is closed (reading k).
+/// *Powered on* is read both ways of S3's 上电: the key is on, or the battery's main contactor is closed.
 fn not_parked(evidence: &Evidence, inputs: &Inputs, config: &Config) -> bool {
     let powered = inputs.key.is(Key::On) || inputs.key.is(Key::Start) || inputs.k1.is(Contact::Closed);
     powered && (inputs.epb.is(EpbState::Released) || evidence.surely_at_least(config.epb_speed))

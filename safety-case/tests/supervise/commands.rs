@@ -1,8 +1,6 @@
 //! The other commands of `supervise` from outside.
 
-mod common;
-
-use common::{Outcome, project, supervise_in};
+use crate::common::{Outcome, project, supervise_in};
 use serde_json::Value;
 
 #[test]

@@ -1,11 +1,9 @@
 //! `supervise replay` from outside: exit codes, messages, JSON, page.
 
-mod common;
-
 use std::io::Write;
 use std::process::{Command, Stdio};
 
-use common::{Outcome, drive, project, ran, supervise_in};
+use crate::common::{Outcome, drive, project, ran, supervise_in};
 use serde_json::Value;
 
 /// A frame of CCVS1 every 100 ms for `seconds`.

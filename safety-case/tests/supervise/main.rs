@@ -1,0 +1,6 @@
+//! `supervise` from outside: the binary, its files, its exit codes.
+
+mod commands;
+mod common;
+mod replay;
+mod robust;
