@@ -86,8 +86,9 @@ pub enum Command {
     /// Run the Kani harnesses, read the results as data, and keep the record
     ///
     /// A harness counts as proved only if it succeeded on the present sources and every cover is satisfied: Kani
-    /// itself ends with 0 on a proof that shows nothing. Exits with 1 if any harness is not proved, is stale, or was
-    /// never run; without cargo kani it runs nothing, shows the committed record, and exits with 1.
+    /// itself ends with 0 on a proof that shows nothing. Exits with 1 if a harness failed, is vacuous, undetermined or
+    /// stale; what was never run is shown as such. Without cargo kani it runs nothing, shows the committed record,
+    /// and exits with 1 (with 0 by --check, if nothing is stale).
     Prove(Prove),
 }
 
@@ -236,9 +237,12 @@ pub struct Prove {
     /// Only these harnesses (names of proofs/harnesses.toml)
     #[arg(long, value_name = "NAME")]
     pub harness: Vec<String>,
-    /// Only what took no longer than this when it was recorded, or was never recorded
+    /// Only what took no longer than this when it was recorded
     #[arg(long, value_name = "SECONDS")]
     pub within: Option<u64>,
+    /// The solver: minisat, kissat, cadical (where CBMC has it)
+    #[arg(long, value_name = "NAME", default_value = "minisat")]
+    pub solver: String,
     /// Run nothing: show the record and whether it is stale
     #[arg(long)]
     pub check: bool,

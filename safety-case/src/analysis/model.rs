@@ -156,7 +156,7 @@ pub struct Event {
     pub c: u8,
     /// Why.
     pub c_reason: String,
-    /// The assumed level; [`check`] compares it with [`Asil::from_rating`].
+    /// The assumed level; [`check`](super::check) compares it with [`Asil::from_rating`].
     pub asil: Asil,
 }
 

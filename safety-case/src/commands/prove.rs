@@ -10,7 +10,8 @@ pub(super) fn run(arguments: &Prove) -> Outcome {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().ok_or("the workspace has no folder")?;
     let kani = available();
     let check = arguments.check || !kani;
-    let options = Options { harnesses: arguments.harness.clone(), within: arguments.within, check };
+    let solver = arguments.solver.clone();
+    let options = Options { harnesses: arguments.harness.clone(), within: arguments.within, check, solver };
     let mut failure = None;
     let mut say = |line: &str| {
         if let Err(error) = print(format_args!("{line}\n")) {

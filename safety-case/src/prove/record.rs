@@ -88,10 +88,17 @@ pub struct Proof {
     pub checks: usize,
     /// Covers satisfied.
     pub covers: usize,
+    /// The solver.
+    #[serde(default = "default_solver")]
+    pub solver: String,
     /// How long it took, in seconds.
     pub seconds: u64,
     /// Digest of the sources it ran on.
     pub sources: String,
+}
+
+fn default_solver() -> String {
+    "minisat".to_owned()
 }
 
 /// Versions of the tools.
@@ -103,8 +110,6 @@ pub struct Tools {
     pub rustc: String,
     /// CBMC.
     pub cbmc: String,
-    /// The solver.
-    pub solver: String,
 }
 
 /// The record, `proofs/record.json`.

@@ -9,9 +9,6 @@ use serde_json::Value;
 use super::judge::{Verdict, judge};
 use super::record::{Harness, List, Proof, ProveError, Record, Tools, sources_digest};
 
-/// The solver is named on the command line: Kani's default falls back silently where it is not there.
-const SOLVER: &str = "minisat";
-
 /// What to run.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
@@ -21,6 +18,8 @@ pub struct Options {
     pub within: Option<u64>,
     /// Run nothing: show the record and whether it is stale.
     pub check: bool,
+    /// The solver. Always named: Kani's default falls back silently where it is not there.
+    pub solver: String,
 }
 
 /// Whether `cargo kani` is there.
@@ -31,8 +30,8 @@ pub fn available() -> bool {
     command.status().is_ok_and(|status| status.success())
 }
 
-/// Runs the chosen harnesses, updates the record, tells `say` of each line; the number of harnesses that are not
-/// proved on the present sources.
+/// Runs the chosen harnesses, updates the record, tells `say` of each line; the number of harnesses that ran and are
+/// not proved on the present sources. What was never run is told as open, and is no failure.
 ///
 /// # Errors
 /// A file or the tool fails; a harness is unknown.
@@ -49,7 +48,7 @@ pub fn prove(root: &Path, options: &Options, say: &mut impl FnMut(&str)) -> Resu
             list.harness.iter().filter(|harness| is_chosen(harness, options, &record)).collect();
         for (index, harness) in chosen.iter().enumerate() {
             say(&format!("[{}/{}] {} ...", index.saturating_add(1), chosen.len(), harness.name));
-            let (proof, tools) = run(root, harness, &sources)?;
+            let (proof, tools) = run(root, harness, &options.solver, &sources)?;
             say(&format!(
                 "        {} in {} s, {} checks, {} covers",
                 word(&proof.verdict),
@@ -67,8 +66,8 @@ pub fn prove(root: &Path, options: &Options, say: &mut impl FnMut(&str)) -> Resu
 
 fn is_chosen(harness: &Harness, options: &Options, record: &Record) -> bool {
     let named = options.harnesses.is_empty() || options.harnesses.contains(&harness.name);
-    let seconds = record.of(&harness.name).map_or(0, |proof| proof.seconds);
-    named && options.within.is_none_or(|within| seconds <= within)
+    let quick = |within| record.of(&harness.name).is_some_and(|proof| proof.seconds <= within);
+    named && options.within.is_none_or(quick)
 }
 
 fn word(verdict: &Verdict) -> String {
@@ -80,30 +79,31 @@ fn word(verdict: &Verdict) -> String {
     }
 }
 
-/// Shows every harness of the list with what the record says of it; counts what is not proved now.
+/// Shows every harness of the list with what the record says of it; counts what ran and is not proved now.
 fn show(list: &List, record: &Record, sources: &str, say: &mut impl FnMut(&str)) -> usize {
-    let mut open = 0_usize;
+    let (mut proved, mut bad) = (0_usize, 0_usize);
     say("");
     for harness in &list.harness {
         let line = match record.of(&harness.name) {
-            None => "stated, not run".to_owned(),
+            None => "stated, NOT RUN".to_owned(),
             Some(proof) if proof.sources != sources => format!("STALE (was: {})", word(&proof.verdict)),
             Some(proof) => format!("{} ({}, {} s)", word(&proof.verdict), proof.harness.extent, proof.seconds),
         };
-        if !line.starts_with("proved") {
-            open = open.saturating_add(1);
+        if line.starts_with("proved") {
+            proved = proved.saturating_add(1);
+        } else if !line.starts_with("stated") {
+            bad = bad.saturating_add(1);
         }
         say(&format!("{:<52} {line}", harness.name));
     }
+    let open = list.harness.len().saturating_sub(proved).saturating_sub(bad);
     say(&format!(
-        "{} of {} harnesses proved on the present sources",
-        list.harness.len().saturating_sub(open),
-        list.harness.len()
+        "{proved} proved on the present sources, {bad} failed, vacuous, undetermined or stale, {open} not run"
     ));
-    open
+    bad
 }
 
-fn run(root: &Path, harness: &Harness, sources: &str) -> Result<(Proof, Tools), ProveError> {
+fn run(root: &Path, harness: &Harness, solver: &str, sources: &str) -> Result<(Proof, Tools), ProveError> {
     let folder = root.join("target");
     std::fs::create_dir_all(&folder).map_err(|error| ProveError::File { path: folder.clone(), error })?;
     let export = folder.join("kani-export.json");
@@ -116,7 +116,7 @@ fn run(root: &Path, harness: &Harness, sources: &str) -> Result<(Proof, Tools), 
     command.current_dir(root).args(["kani", "-p", "supervisor-proofs", "--exact", "--harness", &harness.id()]);
     command.args([
         "--solver",
-        SOLVER,
+        solver,
         "--output-format",
         "terse",
         "-Z",
@@ -140,11 +140,12 @@ fn run(root: &Path, harness: &Harness, sources: &str) -> Result<(Proof, Tools), 
         verdict,
         checks: count(false),
         covers: count(true),
+        solver: solver.to_owned(),
         seconds,
         sources: sources.to_owned(),
     };
     let tool = |key: &str| json.pointer(&format!("/tools/{key}")).map_or_else(String::new, plain);
-    let tools = Tools { kani: tool("kani"), rustc: tool("rustc"), cbmc: tool("cbmc"), solver: SOLVER.to_owned() };
+    let tools = Tools { kani: tool("kani"), rustc: tool("rustc"), cbmc: tool("cbmc") };
     Ok((proof, tools))
 }
 
