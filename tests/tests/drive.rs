@@ -90,6 +90,19 @@ fn tracks_that_agree_count_with_the_lower_one() {
     }
 }
 
+/// TRQ-1c: an accelerator at its configured threshold (4 %) is not pressed, one bit beyond it is.
+#[test]
+fn an_accelerator_is_pressed_beyond_its_threshold() {
+    let threshold = Config::DEFAULT.pedal_pressed.raw();
+    for (bits, passes) in [(threshold, true), (threshold + 1, false)] {
+        let mut bus = Bus::driving(FAST);
+        bus.accelerator(travel_bits(bits));
+        bus.brake_pedal(travel(20));
+        bus.ask_torque(1);
+        assert_eq!(bus.step().verdicts.of(Channel::DriveTorque).passed(), passes, "{bits}");
+    }
+}
+
 /// TRQ-1c: both pedals pressed: no torque; so with the brake pedal unknown.
 #[test]
 fn both_pedals_give_no_torque() {

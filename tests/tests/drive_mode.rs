@@ -213,6 +213,22 @@ fn the_mode_needs_new_driver_evidence() {
     }
 }
 
+/// TRQ-3c, MODE-1a: a "set" that has been there since boot is no new evidence either.
+#[test]
+fn a_set_that_has_been_there_since_boot_is_no_evidence() {
+    let mut bus = Bus::driving(FAST);
+    bus.inputs.cruise_switch = known(true);
+    bus.inputs.ads = known(AdsState::Ready);
+    bus.inputs.driver_set = known(true);
+    let mut bus = bus.reset(ResetCause::PowerOn);
+    bus.commands.mode = Command::Fresh(DrivingMode::Automated);
+    bus.run_with(5_000, 50, |decision| assert_eq!(decision.outputs.mode, DrivingMode::Manual));
+    bus.inputs.driver_set = known(false);
+    bus.step();
+    bus.inputs.driver_set = known(true);
+    assert_passed(&bus.step(), Channel::Mode);
+}
+
 // TRQ-4.
 
 /// TRQ-4a: without ADAS torque an accelerator beyond 8 % overrides, to the bit.

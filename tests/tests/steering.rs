@@ -233,6 +233,18 @@ fn every_end_of_automatic_steering_is_shown() {
     }
 }
 
+/// STR-2b: what has not acted has not ended: a silent steering channel lights no lamp in manual mode.
+#[test]
+fn a_silent_steering_channel_lights_no_lamp() {
+    for mut bus in [Bus::driving(SLOW), Bus::parked()] {
+        bus.commands.steering = Command::Absent;
+        bus.run_with(2_000, 10, |decision| {
+            let Warnings { fault_lamp, notice_lamp, .. } = decision.outputs.warnings;
+            assert!(!fault_lamp && !notice_lamp);
+        });
+    }
+}
+
 /// STR-2c, STR-2d: weight fades in and out by 1 % per 10 ms, in any legal cycle.
 #[test]
 fn the_weight_fades_in_and_out() {

@@ -52,6 +52,9 @@ pub struct Harness {
     pub requirements: Vec<String>,
     /// exhaustive, or bounded with the bound.
     pub extent: String,
+    /// Why it is known not to hold as stated; it then counts as open, never as proved.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub open: Option<String>,
 }
 
 impl Harness {
@@ -89,16 +92,11 @@ pub struct Proof {
     /// Covers satisfied.
     pub covers: usize,
     /// The solver.
-    #[serde(default = "default_solver")]
     pub solver: String,
     /// How long it took, in seconds.
     pub seconds: u64,
     /// Digest of the sources it ran on.
     pub sources: String,
-}
-
-fn default_solver() -> String {
-    "minisat".to_owned()
 }
 
 /// Versions of the tools.

@@ -85,20 +85,21 @@ fn show(list: &List, record: &Record, sources: &str, say: &mut impl FnMut(&str))
     say("");
     for harness in &list.harness {
         let line = match record.of(&harness.name) {
+            _ if harness.open.is_some() => format!("OPEN: {}", harness.open.as_deref().unwrap_or("")),
             None => "stated, NOT RUN".to_owned(),
             Some(proof) if proof.sources != sources => format!("STALE (was: {})", word(&proof.verdict)),
             Some(proof) => format!("{} ({}, {} s)", word(&proof.verdict), proof.harness.extent, proof.seconds),
         };
         if line.starts_with("proved") {
             proved = proved.saturating_add(1);
-        } else if !line.starts_with("stated") {
+        } else if !line.starts_with("stated") && !line.starts_with("OPEN") {
             bad = bad.saturating_add(1);
         }
         say(&format!("{:<52} {line}", harness.name));
     }
     let open = list.harness.len().saturating_sub(proved).saturating_sub(bad);
     say(&format!(
-        "{proved} proved on the present sources, {bad} failed, vacuous, undetermined or stale, {open} not run"
+        "{proved} proved on the present sources, {bad} failed, vacuous, undetermined or stale, {open} open or not run"
     ));
     bad
 }
