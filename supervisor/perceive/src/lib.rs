@@ -1,4 +1,4 @@
-//! From object lists to [`Threat`]: time to collision, the second opinion, the most severe object (S1 §3.1).
+//! From object lists to [`Threat`](supervisor_core::Threat): time to collision, the second opinion, the most severe object (S1 §3.1).
 //!
 //! Each object is assessed alone, then the assessments are merged; both are pure. An object may *oblige* only if
 //! it is valid: in the corridor, and matched by both sensors or seen consistently by the radar (FUS-3). Any object
