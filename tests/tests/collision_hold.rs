@@ -258,6 +258,21 @@ fn with_the_steering_angle_unknown_no_level_ends_by_it() {
     }
 }
 
+/// MIT-7f: after the takeover the angle is the driver's, also while the machine still fades and his torque is small again.
+#[test]
+fn after_a_takeover_the_angle_is_the_drivers() {
+    let mut bus = Bus::steering(kmh(12));
+    bus.ahead(at(4_399));
+    bus.step();
+    bus.inputs.driver_torque = known(hand_torque(7_000));
+    bus.run_for(400);
+    bus.inputs.driver_torque = known(hand_torque(0));
+    let decision = bus.run_for(100);
+    assert!(decision.outputs.steering.weight > Percent::ZERO && decision.status.level == Level::One);
+    bus.inputs.steering_angle = known(angle(801));
+    assert_eq!(bus.step().status.level, Level::None);
+}
+
 /// MIT-7f: in automatic steering a level ends by the angle only after the driver has taken over.
 #[test]
 fn in_automatic_steering_only_a_takeover_counts_as_steering() {

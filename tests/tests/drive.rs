@@ -285,6 +285,21 @@ fn hill_hold_lasts_one_second() {
     bus.run_with(5_000, 10, |decision| assert_eq!(decision.outputs.drive.torque, Percent::ZERO, "once"));
 }
 
+/// TRQ-6b: the second counts from the torque, not from the brake: a bus that has stood on its brake moves off.
+#[test]
+fn hill_hold_counts_from_the_torque() {
+    let mut bus = hill(kmh(0));
+    bus.run_for(10_000);
+    bus.ask_torque(2);
+    bus.run_with(900, 10, |decision| assert_passed(decision, Channel::DriveTorque));
+    assert_eq!(bus.run_for(500).outputs.drive.torque, Percent::ZERO);
+    // The brake let go in between gives another second.
+    bus.ask_brake(ms2(0));
+    bus.step();
+    bus.ask_brake(ms2(100));
+    assert_passed(&bus.step(), Channel::DriveTorque);
+}
+
 /// TRQ-6b: against the retarder alone it lasts no longer.
 #[test]
 fn hill_hold_against_the_retarder_lasts_no_longer() {

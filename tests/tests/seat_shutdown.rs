@@ -103,6 +103,17 @@ fn a_seat_that_is_not_confirmed_does_not_set_the_ten_minutes_to_zero() {
     assert!(opens_k4(&decision));
 }
 
+/// SEAT-7a: time with somebody on the seat is not time with a vacant seat, confirmed or not.
+#[test]
+fn time_with_somebody_on_the_seat_does_not_count() {
+    let mut bus = Bus::parked_by_leave();
+    let before = bus.run_coarse(60_000).status.parked_for;
+    bus.occupied();
+    assert_eq!(bus.run_for(900).status.parked_for, before);
+    bus.vacant();
+    assert_eq!(bus.run_for(100).status.parked_for, Millis::new(before.raw() + 100));
+}
+
 /// SEAT-11b: an unknown parking brake freezes the 10 min, for as long as it lasts.
 #[test]
 fn an_unknown_parking_brake_freezes_the_ten_minutes() {
