@@ -2,9 +2,10 @@
 
 use supervisor_core::{
     BrakeMode, Channel, Clock, Command, Commands, Config, Contact, ContactorBound, ContactorRequest, Contactors,
-    DecelMs2Q11, DriveTorque, DrivingMode, Envelope, EpbRequest, EpbState, Gear, GearRequest, HighVoltage, Inputs, Key,
-    LastKey, Millis, Origin, Outputs, Parking, ParkingBrake, PedalChain, Percent, Priority, Record, Restart, Seat,
-    SeatState, ServiceBrake, Stage, State, Steering, Timer, Verdicts, Warnings,
+    DecelMs2Q11, Deviation, DriveTorque, DrivingMode, Envelope, EpbRequest, EpbState, Faults, Flow, Gear, GearRequest,
+    HighVoltage, Inputs, Key, LastKey, Millis, Origin, Outputs, Parking, ParkingBrake, PedalChain, Percent, Priority,
+    Reason, Record, Response, Restart, Seat, SeatState, ServiceBrake, Stage, State, Steering, Timer, Verdicts,
+    Warnings,
 };
 
 /// One cycle, seen from outside.
@@ -18,6 +19,8 @@ pub struct Cycle<'a> {
     pub now: Millis,
     /// Inputs.
     pub inputs: &'a Inputs,
+    /// Whether the actuators follow.
+    pub response: &'a Response,
     /// Envelope.
     pub envelope: &'a Envelope,
     /// Outputs.
@@ -254,7 +257,7 @@ impl Cycle<'_> {
         let mitigation = &self.new.mitigation;
         let out = &self.outputs.brake;
         let demand = |set, decel: DecelMs2Q11| implies(set, out.total >= decel);
-        let obliged = self.new.seat.leave && self.new.brake.leave > DecelMs2Q11::ZERO || mitigation.running();
+        let obliged = self.envelope.brake.floor.most > DecelMs2Q11::ZERO;
         demand(mitigation.one, one)
             && demand(mitigation.two, two)
             && demand(mitigation.three, three)
@@ -277,10 +280,89 @@ impl Cycle<'_> {
         )
     }
 
-    /// SELF-5: latched faults stay.
+    /// SELF-7a, SELF-7b, SELF-7c: latched faults stay, or all go together: at standstill, parking brake applied, after
+    /// the fault-free time, by the key seen Off before and On or Start now.
     #[must_use]
-    pub fn self_5_latched(&self) -> bool {
-        self.new.latched.contains(self.old.latched)
+    pub fn self_7_latched(&self) -> bool {
+        let (old, new) = (&self.old.latches, &self.new.latches);
+        let key = self.inputs.key.is(Key::On) || self.inputs.key.is(Key::Start);
+        let may_clear = self.standstill()
+            && self.inputs.epb.is(EpbState::Applied)
+            && new.quiet.reached(self.config.fault_free)
+            && old.off_seen
+            && key;
+        new.faults.contains(old.faults) || (may_clear && new.faults == Faults::NONE)
+    }
+
+    /// SELF-7b: the fault-free time counts no more than real time, and only at standstill with the parking brake applied.
+    #[must_use]
+    pub fn self_7_quiet_counts_real_time(&self) -> bool {
+        let (old, new) = (self.old.latches.quiet, self.new.latches.quiet);
+        let passed = self.now.raw().wrapping_sub(self.old.clock.last.raw());
+        let counted = new.elapsed().raw().saturating_sub(old.elapsed().raw());
+        implies(new.is_running(), self.standstill() && self.inputs.epb.is(EpbState::Applied))
+            && implies(self.old.clock.started, counted <= passed)
+    }
+
+    /// SELF-6: a cycle that did not run whole and in order leads to the safe state.
+    #[must_use]
+    pub fn self_6_flow_fault_is_the_safe_state(&self) -> bool {
+        implies(self.old.flow != Flow::RECORDED, self.new.is_safe_state())
+    }
+
+    /// SELF-7: with a contactor fault latched nothing closes.
+    #[must_use]
+    pub fn self_7_contactor_fault_closes_nothing(&self) -> bool {
+        let out = &self.outputs.contactors;
+        let closes = out.k1 == ContactorRequest::Close || out.k4 == ContactorRequest::Close;
+        implies(self.new.latches.faults.contains(Faults::CONTACTOR), !closes)
+    }
+
+    /// TRQ-7b: a drive that gives more than it was told is told 0; one that still drives is braked against.
+    #[must_use]
+    pub fn trq_7_excess_is_answered(&self) -> bool {
+        let response = self.response.torque;
+        implies(response != Deviation::None, self.outputs.drive.torque == Percent::ZERO)
+            && implies(response == Deviation::Persistent, self.outputs.brake.total >= self.config.leave_hold)
+    }
+
+    /// SELF-10c: while somebody else commands an actuator there is no automated mode, and the drive is told 0.
+    #[must_use]
+    pub fn self_10_bypass_is_answered(&self) -> bool {
+        implies(
+            self.response.bypass,
+            self.outputs.mode == DrivingMode::Manual && self.outputs.drive.torque == Percent::ZERO,
+        )
+    }
+
+    /// RSP-1k, RSP-1l, RSP-1m: brakes that fall short of an obligation are helped by all that the retarder may give,
+    /// unless ABS is, or may be, at work.
+    #[must_use]
+    pub fn rsp_1_retarder_helps(&self) -> bool {
+        let bound = &self.envelope.brake;
+        let due = self.response.brake != Deviation::None && bound.floor.most > DecelMs2Q11::ZERO;
+        bound.retarder_obliged == (due && self.inputs.abs.is(false))
+    }
+
+    /// EPB-1b, EPB-1c: in leave or level 3, brakes that still fall short are helped by the parking brake at any speed,
+    /// and by that reason never while ABS is, or may be, at work.
+    #[must_use]
+    pub fn epb_1_parking_brake_helps(&self) -> bool {
+        let due = self.response.brake == Deviation::Persistent
+            && (self.new.seat.leave || self.new.mitigation.three)
+            && self.inputs.abs.is(false)
+            && !self.new.is_safe_state();
+        implies(due, self.outputs.epb.request == EpbRequest::Apply)
+            && implies(self.envelope.epb.obliged == Some(Reason::BrakeResponse), self.inputs.abs.is(false))
+    }
+
+    /// VLC-1d: drive torque of the longitudinal mode that is not configured is none.
+    #[must_use]
+    pub fn vlc_1_mode_not_configured_commands_nothing(&self) -> bool {
+        let drive = &self.outputs.drive;
+        let by_epbi = self.config.longitudinal_mode.raw() != 0;
+        implies(drive.origin == Origin::Adas && by_epbi, drive.torque == Percent::ZERO)
+            && implies(drive.origin == Origin::Epbi && !by_epbi, drive.torque == Percent::ZERO)
     }
 }
 

@@ -45,7 +45,8 @@ impl Supervisor {
     #[must_use]
     pub fn step(&mut self, now: Millis, inputs: &Inputs, scene: &Scene, commands: &Commands) -> Decision {
         let threat = perceive(scene, self.config());
-        step(&mut self.image, &self.sealed, now, inputs, &threat, commands)
+        let flow = Flow::START.pass(Checkpoint::Perceive);
+        step(&mut self.image, &self.sealed, flow, now, inputs, &threat, commands)
     }
 
     /// The configuration. One that has changed since it was checked leads to the safe state in

@@ -6,11 +6,11 @@
 use std::collections::BTreeSet;
 
 use supervisor::{
-    AdsState, AngleDeciDeg, Channel, Closing, Command, Commands, Contact, ContactorRequest, Contactors, CurrentDeciA,
-    DecelMs2Q11, Decision, DriveTorque, DrivingMode, EpbMode, EpbRequest, EpbState, EpbSwitch, EpsState, Gear,
-    GearRequest, Group, Inputs, Key, Level, Meaning, Millis, Origin, Outputs, ParkingBrake, Pedal250, Percent, Record,
-    ResetCause, Retarder, RetarderMode, Sealed, Seat, Signal, SpeedKmhQ8, State, StateImage, Steering, Threat,
-    TorqueNmQ10, meaning, step,
+    AdsState, AngleDeciDeg, Channel, Channels, Closing, Command, Commands, Contact, ContactorRequest, Contactors,
+    CurrentDeciA, DecelMs2Q11, Decision, DriveTorque, DrivingMode, EpbMode, EpbRequest, EpbState, EpbSwitch, EpsState,
+    Flow, Gear, GearRequest, Group, Inputs, Key, Level, Mass10Kg, Meaning, Millis, Origin, Outputs, ParkingBrake,
+    Pedal250, Percent, Pressure5KPa, Record, ResetCause, Retarder, RetarderMode, Sealed, Seat, Signal, SpeedKmhQ8,
+    State, StateImage, Steering, Threat, TorqueNmQ10, meaning, step,
 };
 
 /// A small deterministic generator (xorshift).
@@ -61,6 +61,9 @@ fn healthy() -> Inputs {
         executed_torque: Signal::Known(Percent::ZERO),
         electric_limit: Signal::Known(DecelMs2Q11::new(2048)),
         friction_limit: Signal::Known(DecelMs2Q11::new(12288)),
+        electric_actual: Signal::Known(DecelMs2Q11::ZERO),
+        mass: Signal::Known(Mass10Kg::new(1_500)),
+        axle_pressure: [Signal::Known(Pressure5KPa::ZERO); 2],
         deceleration: Signal::Known(DecelMs2Q11::ZERO),
         abs: known(false),
         asr: known(false),
@@ -71,6 +74,8 @@ fn healthy() -> Inputs {
         eps: Signal::Known(EpsState::Ready),
         hands_off: known(false),
         ads: Signal::Known(AdsState::Ready),
+        foreign: Channels::NONE,
+        second_sender: false,
     }
 }
 
@@ -208,7 +213,7 @@ fn the_matrix_of_unknown_says_what_happens() -> Result<(), supervisor::ConfigErr
             let now = Millis::new(cycle * 10);
             let decide = |inputs: &Inputs, threat: &Threat| {
                 let mut copy = image;
-                step(&mut copy, &sealed, now, inputs, threat, &commands)
+                step(&mut copy, &sealed, Flow::PERCEIVED, now, inputs, threat, &commands)
             };
             let whole = decide(&inputs, &threat);
             for group in Group::ALL {
@@ -218,7 +223,7 @@ fn the_matrix_of_unknown_says_what_happens() -> Result<(), supervisor::ConfigErr
                     seen.insert((*group, *channel));
                 }
             }
-            let _ = step(&mut image, &sealed, now, &inputs, &threat, &commands);
+            let _ = step(&mut image, &sealed, Flow::PERCEIVED, now, &inputs, &threat, &commands);
         }
     }
     let mut wrong = Vec::new();

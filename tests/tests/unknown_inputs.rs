@@ -84,7 +84,8 @@ fn bus(situation: Situation) -> Bus {
 fn fields() -> Vec<&'static str> {
     macro_rules! names {
         ($($field:ident),+ $(,)?) => {{
-            let Inputs { $($field: _),+ } = Inputs::NEVER;
+            // What is seen on the bus is never unknown.
+            let Inputs { $($field: _,)+ foreign: _, second_sender: _ } = Inputs::NEVER;
             vec![$(stringify!($field)),+]
         }};
     }
@@ -114,6 +115,9 @@ fn fields() -> Vec<&'static str> {
         executed_torque,
         electric_limit,
         friction_limit,
+        electric_actual,
+        mass,
+        axle_pressure,
         deceleration,
         abs,
         asr,

@@ -1,7 +1,7 @@
 //! The supervisor itself: state at rest, boot, safe state.
 use supervisor_core::{
-    Commands, EpbRequest, Outputs, Percent, Record, ResetCause, STATE_WORDS, State, StateImage, record, vet_brake,
-    vet_contactors, vet_drive, vet_epb, vet_gear, vet_mode, vet_warnings,
+    Commands, EpbRequest, Origin, Outputs, Percent, Reason, Record, ResetCause, STATE_WORDS, State, StateImage, record,
+    vet_brake, vet_contactors, vet_drive, vet_epb, vet_gear, vet_mode, vet_warnings,
 };
 
 use super::Any;
@@ -53,10 +53,14 @@ fn self_5_safe_state_and_no_torque() {
     };
     let cycle = any.cycle(&outputs);
     assert!(cycle.self_5_safe_state());
-    assert!(cycle.self_5_latched());
+    assert!(cycle.self_7_latched());
+    assert!(cycle.self_7_quiet_counts_real_time());
+    assert!(cycle.self_6_flow_fault_is_the_safe_state());
+    assert!(cycle.self_7_contactor_fault_closes_nothing());
     assert!(cycle.no_torque_under_obligation());
     assert!(cycle.seat_6_neutral());
     kani::cover!(any.decided.state.is_safe_state(), "the safe state");
+    kani::cover!(any.old.is_safe_state() && !any.decided.state.is_safe_state(), "the safe state ends by a key cycle");
     kani::cover!(outputs.drive.torque > Percent::ZERO, "torque passes");
 }
 
@@ -71,6 +75,31 @@ fn mit_4_brake_never_below_obligation() {
     kani::cover!(any.decided.state.seat.leave, "leave");
 }
 
+/// RSP-1, TRQ-7, SELF-10, EPB-1, VLC-1: an actuator that does not follow calls the next stronger means.
+#[kani::proof]
+#[kani::unwind(17)]
+fn rsp_1_next_stronger_means() {
+    let any = Any::new();
+    let envelope = &any.decided.envelope;
+    let others: Outputs = kani::any();
+    let outputs = Outputs {
+        brake: vet_brake(envelope, kani::any()).0,
+        drive: vet_drive(envelope, kani::any(), kani::any(), kani::any(), kani::any()).0,
+        epb: vet_epb(envelope, kani::any()).0,
+        mode: vet_mode(envelope, kani::any()).0,
+        ..others
+    };
+    let cycle = any.cycle(&outputs);
+    assert!(cycle.trq_7_excess_is_answered());
+    assert!(cycle.self_10_bypass_is_answered());
+    assert!(cycle.rsp_1_retarder_helps());
+    assert!(cycle.epb_1_parking_brake_helps());
+    assert!(cycle.vlc_1_mode_not_configured_commands_nothing());
+    kani::cover!(envelope.brake.retarder_obliged, "the retarder helps");
+    kani::cover!(envelope.epb.obliged == Some(Reason::BrakeResponse), "the parking brake helps");
+    kani::cover!(outputs.drive.torque > Percent::ZERO && outputs.drive.origin == Origin::Epbi, "EPBi torque passes");
+}
+
 /// SELF-1, SEAT-4: `record` is total, and only a release that went out clears *parked by leave*. With `decide`, every
 /// `vet_*` and the state image this is the whole of `step`.
 #[kani::proof]
@@ -81,7 +110,7 @@ fn seat_4_record_is_total_and_keeps_the_latch() {
     let next = record(&any.decided, &outputs, &commands, &any.config);
     let released = outputs.epb.request == EpbRequest::Release;
     assert!(next.parking.by_leave == (any.decided.state.parking.by_leave && !released));
-    assert!(next.latched == any.decided.state.latched);
+    assert!(next.latches == any.decided.state.latches);
     assert!(next.high_voltage == any.decided.state.high_voltage && next.seat == any.decided.state.seat);
     kani::cover!(next.parking.by_leave, "parked by leave stays");
     kani::cover!(any.decided.state.parking.by_leave && released, "a release ends it");

@@ -4,15 +4,16 @@ mod cycle;
 mod kernel;
 mod vetting;
 
-use supervisor_core::{Config, Decided, Inputs, Millis, Outputs, State, Threat, decide};
+use supervisor_core::{Config, Decided, Inputs, Millis, Outputs, Response, State, Threat, decide};
 
 use crate::properties::Cycle;
 
-/// Any cycle: the shipped `decide` on any state, time, inputs, threat and configuration.
+/// Any cycle: the shipped `decide` on any state, time, inputs, threat, response and configuration.
 struct Any {
     old: State,
     now: Millis,
     inputs: Inputs,
+    response: Response,
     decided: Decided,
     config: Config,
 }
@@ -21,9 +22,9 @@ impl Any {
     fn new() -> Self {
         let (old, now, inputs, threat): (State, Millis, Inputs, Threat) =
             (kani::any(), kani::any(), kani::any(), kani::any());
-        let config: Config = kani::any();
-        let decided = decide(&old, now, &inputs, &threat, &config);
-        Self { old, now, inputs, decided, config }
+        let (response, config): (Response, Config) = (kani::any(), kani::any());
+        let decided = decide(&old, now, &inputs, &threat, &response, &config);
+        Self { old, now, inputs, response, decided, config }
     }
     /// The cycle with these outputs.
     fn cycle<'a>(&'a self, outputs: &'a Outputs) -> Cycle<'a> {
@@ -32,6 +33,7 @@ impl Any {
             new: &self.decided.state,
             now: self.now,
             inputs: &self.inputs,
+            response: &self.response,
             envelope: &self.decided.envelope,
             outputs,
             config: &self.config,

@@ -92,6 +92,7 @@ texts! {
         None => "not ended", Requested => "asked for", BrakePedal => "brake pedal", Takeover => "driver took over steering",
         Switch => "cruise switch", AdsState => "automated driving system not valid", CommandLost => "brake request lost",
         InputLost => "input lost", Leave => "driver left the seat", Fault => "clock fault or safe state", Mitigation => "mitigation began",
+        Bypass => "an actuator was commanded past us, or did not obey",
     }
     seat: Seat { Vacant => "vacant", Occupied => "occupied", }
     gear: Gear { Neutral => "N", Drive => "D", Reverse => "R", Park => "P", }

@@ -9,7 +9,8 @@ use sha2::{Digest, Sha256};
 use super::judge::Verdict;
 
 /// Folders whose sources a proof speaks of.
-const SOURCES: [&str; 4] = ["supervisor/terms/src", "supervisor/core/src", "supervisor/perceive/src", "proofs/src"];
+const SOURCES: [&str; 5] =
+    ["supervisor/terms/src", "supervisor/observe/src", "supervisor/core/src", "supervisor/perceive/src", "proofs/src"];
 
 /// What can go wrong besides a proof.
 #[derive(Debug, thiserror::Error)]

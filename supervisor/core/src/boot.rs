@@ -1,8 +1,8 @@
 //! The boot rule (SELF-9): what the reset cause and the persisted record make of the first seconds.
 
-use crate::clock::Ticks;
-use crate::evidence::{Evidence, SeatView};
 use crate::seat::SeatState;
+use supervisor_observe::Ticks;
+use supervisor_observe::{Evidence, SeatView};
 
 use supervisor_terms::word::{codes, retained};
 use supervisor_terms::{Config, EpbState, Inputs, Timer};

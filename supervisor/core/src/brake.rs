@@ -1,13 +1,14 @@
 //! How much must the bus brake, and how much may it? (SEAT-3, MIT, PHB-1, TRQ-3, TRQ-4, E2E-2, RET-1, VLC-2)
 
-use crate::clock::Ticks;
 use crate::envelope::{Bound, BrakeBound};
-use crate::evidence::{BrakePedal, Evidence, SeatView};
 use crate::mitigation::Mitigation;
+use supervisor_observe::Ticks;
+use supervisor_observe::{BrakePedal, Evidence, SeatView};
 
 use supervisor_terms::word::retained;
 use supervisor_terms::{
-    Config, DecelMs2Q11, EpbState, Inputs, Millis, Mode, Outputs, Pedal250, Percent, Reason, SpeedKmhQ8, Threat, Timer,
+    Config, DecelMs2Q11, Deviation, EpbState, Inputs, Millis, Mode, Outputs, Pedal250, Percent, Reason, Response,
+    SpeedKmhQ8, Threat, Timer,
 };
 
 retained! {
@@ -34,8 +35,11 @@ retained! {
 pub(crate) struct Situation<'a> {
     pub mitigation: &'a Mitigation,
     pub threat: &'a Threat,
+    pub response: &'a Response,
     pub mode: Mode,
     pub safe_state: bool,
+    /// The parking brake came loose and nobody is confirmed to sit (SELF-10).
+    pub loose: bool,
 }
 
 /// a₀(v) of S3 table 1: linear between the points, rounded up; beyond 60 km/h its last value (reading e).
@@ -101,8 +105,6 @@ impl Brake {
         config: &Config,
     ) -> BrakeBound {
         let floor = self.floor(situation, evidence, config);
-        let slip = !(inputs.abs.is(false) && inputs.asr.is(false) && inputs.stability.is(false));
-        let electric = if slip { None } else { inputs.electric_limit.known() };
         let mut retarder = Bound { most: Percent::FULL, reason: Reason::BrakeCap };
         // RET-1: off while ABS works.
         retarder.lower_if(inputs.abs.is(true), Percent::ZERO, Reason::AntiLock);
@@ -115,8 +117,12 @@ impl Brake {
             } else {
                 self.retarder
             },
-            // VLC-2: unknown limit, or slip control at work or unknown: no electric part; friction fills up.
-            electric: electric.unwrap_or(DecelMs2Q11::ZERO),
+            // VLC-2: friction fills up what the electric part may not give.
+            electric: evidence.electric,
+            // RSP-1: the brakes fall short of an obligation: the retarder helps, unless ABS is, or may be, at work.
+            retarder_obliged: situation.response.brake != Deviation::None
+                && floor.most > DecelMs2Q11::ZERO
+                && inputs.abs.is(false),
             retarder,
             retarder_decel: config.retarder_decel,
         }
@@ -130,6 +136,13 @@ impl Brake {
             floor.raise(config.leave_hold, Reason::SpeedlessHold);
         }
         floor.raise(self.leave, Reason::Leave);
+        // TRQ-7: told 0, and still driving: the brakes hold against it. SELF-10: a bus that nobody holds is held.
+        if situation.response.torque == Deviation::Persistent {
+            floor.raise(config.leave_hold, Reason::ExcessTorque);
+        }
+        if situation.loose && self.slow {
+            floor.raise(config.leave_hold, Reason::Bypass);
+        }
         if situation.safe_state {
             // SELF-5: a₀(v) if the seat is known vacant, 1.35 m/s² below 2 km/h.
             if evidence.seat == SeatView::Vacant {

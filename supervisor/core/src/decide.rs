@@ -4,15 +4,15 @@ use crate::boot;
 use crate::brake::Situation;
 use crate::drive::Obligations;
 use crate::envelope::{Envelope, Timeouts, WarningBound};
-use crate::evidence::{BrakePedal, Evidence, SeatView};
 use crate::mitigation::Steered;
 use crate::parking::Parking;
 use crate::state::State;
+use supervisor_observe::{BrakePedal, Evidence, SeatView};
 
 use supervisor_terms::word::permit;
-use supervisor_terms::{Config, Faults, Inputs, Millis, Reason, Stage, Threat};
+use supervisor_terms::{Config, Deviation, Faults, Flow, Inputs, Millis, Reason, Response, Stage, Threat};
 
-pub(crate) use crate::clock::Ticks;
+pub(crate) use supervisor_observe::Ticks;
 
 /// What `decide` gives.
 #[derive(Clone, Copy, Debug)]
@@ -26,13 +26,28 @@ pub struct Decided {
     pub(crate) ticks: Ticks,
 }
 
-/// Decides one cycle. Total: any state, time, inputs, threat; any configuration.
+/// Decides one cycle. Total: any state, time, inputs, threat, response; any configuration.
 #[must_use]
-pub fn decide(state: &State, now: Millis, inputs: &Inputs, threat: &Threat, config: &Config) -> Decided {
+pub fn decide(
+    state: &State,
+    now: Millis,
+    inputs: &Inputs,
+    threat: &Threat,
+    response: &Response,
+    config: &Config,
+) -> Decided {
     let (clock, ticks) = state.clock.advance(now, config);
-    let latched = state.latched.when(clock.is_lost(), Faults::CLOCK_LATCHED);
-    let safe_state = latched != Faults::NONE;
     let evidence = Evidence::gather(inputs, config);
+    let cause = response
+        .faults
+        .and(Faults::CONTACTOR)
+        // A changed configuration is read anew by a restart only.
+        .with(state.latches.faults.and(Faults::CONFIGURATION))
+        .when(clock.is_lost(), Faults::CLOCK_LATCHED)
+        .when(state.flow != Flow::RECORDED, Faults::FLOW)
+        .when(state.high_voltage.k4_overdue(config) || state.high_voltage.k1_overdue(config), Faults::CONTACTOR);
+    let latches = state.latches.advance(cause, &evidence, inputs, ticks, config);
+    let safe_state = latches.safe_state();
 
     // The driver: seat, boot, parking brake, high voltage.
     let seat = state.seat.advance(&evidence, inputs, ticks, config);
@@ -43,7 +58,7 @@ pub fn decide(state: &State, now: Millis, inputs: &Inputs, threat: &Threat, conf
     let high_voltage = state.high_voltage.advance(&parking, &seat, clean, &evidence, inputs, ticks, config);
 
     // The road.
-    let steering = state.steering.advance(&evidence, inputs, ticks, config);
+    let steering = state.steering.advance(response.steering && !seat.leave, &evidence, inputs, ticks, config);
     let takeover = steering.taken_over(config) || steering.barred;
     let steered = Steered { automatic: state.steering.acts(), takeover };
     let mitigation = state.mitigation.advance(threat, steered, &evidence, inputs, ticks, config);
@@ -58,15 +73,17 @@ pub fn decide(state: &State, now: Millis, inputs: &Inputs, threat: &Threat, conf
         confirmed: seat.confirmed(config) && evidence.seat == SeatView::Occupied,
         takeover: steering.taken_over(config),
         brake_lost: state.brake.lost.reached(config.brake_hold),
+        bypass: response.bypass,
+        excess: response.torque != Deviation::None,
     };
     let drive = state.drive.advance(must, threat, &evidence, inputs, ticks, config);
     let brake = state.brake.advance(seat.leave, &evidence, inputs, config);
     let gear = state.gear.advance(&evidence, inputs);
     let next =
-        State { clock, boot, seat, parking, high_voltage, mitigation, drive, brake, gear, steering, latched, ..*state };
+        State { clock, boot, seat, parking, high_voltage, mitigation, drive, brake, gear, steering, latches, ..*state };
 
-    let faults = faults(&next, threat, &evidence, ticks, config);
-    let envelope = envelope(&next, must, faults, threat, &evidence, inputs, ticks, config);
+    let faults = faults(&next, threat, response, &evidence, ticks, config);
+    let envelope = envelope(&next, must, faults, threat, response, &evidence, inputs, ticks, config);
     Decided { state: next, envelope, faults, ticks }
 }
 
@@ -75,6 +92,7 @@ fn envelope(
     must: Obligations,
     faults: Faults,
     threat: &Threat,
+    response: &Response,
     evidence: &Evidence,
     inputs: &Inputs,
     ticks: Ticks,
@@ -82,9 +100,30 @@ fn envelope(
 ) -> Envelope {
     let State { seat, parking, high_voltage, mitigation, drive, brake, .. } = next;
     let automated = drive.permission(must, threat, evidence, inputs);
-    let situation = Situation { mitigation, threat, mode: drive.mode, safe_state: must.safe_state };
+    let confirmed = seat.confirmed(config);
+    let situation = Situation {
+        mitigation,
+        threat,
+        response,
+        mode: drive.mode,
+        safe_state: must.safe_state,
+        loose: response.parking && !confirmed,
+    };
     let held = permit!(!must.safe_state => Reason::SafeState);
-    let (k4, k1) = high_voltage.bounds(evidence, inputs, held, config);
+    let sound = permit!(!next.latches.contactor() => Reason::ContactorFault);
+    let (k4, k1) = high_voltage.bounds(evidence, inputs, held, sound, config);
+    // EPB-1: the brakes fall short of leave or level 3, and not because ABS works.
+    let unbraked = response.brake == Deviation::Persistent
+        && (seat.leave || mitigation.three)
+        && inputs.abs.is(false)
+        && !must.safe_state;
+    let forced = if unbraked {
+        Some(Reason::BrakeResponse)
+    } else if response.parking && !confirmed && evidence.obliged_below(config.epb_speed) {
+        Some(Reason::Bypass)
+    } else {
+        None
+    };
     let steering = next.steering.bound(drive.mode, must.safe_state, evidence, inputs, ticks, config);
     Envelope {
         timeouts: Timeouts { ms50: config.timeout_50, ms100: config.timeout_100, ms200: config.timeout_200 },
@@ -92,7 +131,7 @@ fn envelope(
         brake: brake.bound(&situation, evidence, inputs, ticks, config),
         torque: drive.bound(must, automated, threat, evidence, inputs, ticks, config),
         target_speed: drive.target_speed(must, automated, threat, config),
-        epb: parking.bound(seat, evidence, inputs, must.safe_state, config),
+        epb: parking.bound(seat, evidence, inputs, must.safe_state, forced, config),
         steering,
         k4,
         k1,
@@ -115,8 +154,18 @@ fn envelope(
     }
 }
 
-fn faults(next: &State, threat: &Threat, evidence: &Evidence, ticks: Ticks, config: &Config) -> Faults {
-    next.latched
+fn faults(
+    next: &State,
+    threat: &Threat,
+    response: &Response,
+    evidence: &Evidence,
+    ticks: Ticks,
+    config: &Config,
+) -> Faults {
+    next.latches
+        .faults
+        .with(response.faults)
+        .when(evidence.split_implausible, Faults::SPLIT_IMPLAUSIBLE)
         .when(ticks.fault, Faults::CLOCK)
         .when(evidence.seat == SeatView::HalfOccupied, Faults::SEAT_DISAGREE)
         .when(evidence.seat == SeatView::Unknown, Faults::SEAT_UNKNOWN)

@@ -1,13 +1,13 @@
 //! Who drives, and how much torque is permitted? (S2; TRQ-1 to TRQ-6, SPD-1, MODE-1)
 
-use crate::clock::Ticks;
 use crate::envelope::{Bound, Permission, TorqueBound};
-use crate::evidence::{BrakePedal, Evidence, percent};
+use supervisor_observe::Ticks;
+use supervisor_observe::{BrakePedal, Evidence, percent};
 
 use supervisor_terms::word::{permit, retained};
 use supervisor_terms::{
-    AdsState, Config, DecelMs2Q11, DriveTorque, DrivingMode, EpbState, ExitReason, Gear, Inputs, Level, Millis, Mode,
-    Origin, Outputs, Pedal250, Percent, PercentPerS, Reason, Rest, SpeedKmhQ8, Threat, Timer,
+    AdsState, Config, Count, DecelMs2Q11, DriveTorque, DrivingMode, EpbState, ExitReason, Gear, Inputs, Level, Millis,
+    Mode, Origin, Outputs, Pedal250, Percent, PercentPerS, Reason, Rest, SpeedKmhQ8, Threat, Timer,
 };
 
 retained! {
@@ -53,6 +53,10 @@ pub(crate) struct Obligations {
     pub takeover: bool,
     /// The brake command has been lost for longer than it is held.
     pub brake_lost: bool,
+    /// Somebody else commands an actuator (SELF-10).
+    pub bypass: bool,
+    /// The drive gives more than it was told (TRQ-7).
+    pub excess: bool,
 }
 
 impl Obligations {
@@ -63,6 +67,10 @@ impl Obligations {
             Some(Reason::Leave)
         } else if self.mitigation {
             Some(Reason::Mitigation)
+        } else if self.excess {
+            Some(Reason::ExcessTorque)
+        } else if self.bypass {
+            Some(Reason::Bypass)
         } else {
             None
         }
@@ -85,7 +93,7 @@ impl Drive {
         config: &Config,
     ) -> Self {
         let released = evidence.accelerator.is_some_and(|travel| travel <= config.pedal_pressed);
-        let release_needed = must.leave || (self.release_needed && !released);
+        let release_needed = must.leave || must.excess || (self.release_needed && !released);
         let (mode, exit) = match (self.mode, exit_reason(must, threat, evidence, inputs)) {
             (Mode::Manual, _) => (Mode::Manual, self.exit),
             (Mode::Automated | Mode::Suspended, Some(reason)) => (Mode::Manual, reason),
@@ -216,12 +224,16 @@ impl Drive {
         // Rule 1: no automated torque towards an obstacle, at whatever speed; MIT-6's gates only end obligations.
         automated.lower_if(threat.level != Level::None, Percent::ZERO, Reason::ObstacleAhead);
         automated.lower(config.automated_torque, Reason::AccelerationBound);
+        // VLC-1: the longitudinal mode that is not configured may not command.
+        let by_epbi = config.longitudinal_mode != Count::ZERO;
 
         let tired = self.hill.due(config.hill_hold, ticks.safety);
         let hill_hold = must.confirmed && evidence.surely_below(config.hill_hold_speed) && !tired;
         let mut epbi = automated;
         epbi.lower(ramped.max(config.idle_torque), Reason::TorqueRamp);
+        epbi.lower_if(!by_epbi, Percent::ZERO, Reason::NotConfigured);
         automated.lower(ramped, Reason::TorqueRamp);
+        automated.lower_if(by_epbi, Percent::ZERO, Reason::NotConfigured);
         TorqueBound { driver, automated, epbi, idle: config.idle_torque, hill_hold }
     }
 
@@ -272,6 +284,7 @@ fn exit_reason(must: Obligations, threat: &Threat, evidence: &Evidence, inputs: 
         !(must.safe_state || must.clock_fault) => ExitReason::Fault,
         !must.leave => ExitReason::Leave,
         !must.mitigation => ExitReason::Mitigation,
+        !(must.bypass || must.excess) => ExitReason::Bypass,
         (evidence.brake_pedal == BrakePedal::Released) => ExitReason::BrakePedal,
         !must.takeover => ExitReason::Takeover,
         inputs.cruise_switch.is(true) => ExitReason::Switch,

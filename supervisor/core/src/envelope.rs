@@ -87,6 +87,8 @@ bounds! {
         electric: DecelMs2Q11,
         /// Greatest retarder torque.
         retarder: Bound<Percent>,
+        /// The retarder is obliged to give as much as it may (RSP-1).
+        retarder_obliged: bool,
         /// Deceleration of the retarder for each per cent.
         retarder_decel: DecelMs2Q11,
     }

@@ -1,9 +1,9 @@
 //! Which gear may be asked for? (GEAR-1, SEAT-6)
 
 use crate::envelope::{GearBound, Permission};
-use crate::evidence::Evidence;
 use crate::parking::Parking;
 use crate::seat::SeatState;
+use supervisor_observe::Evidence;
 
 use supervisor_terms::word::{codes, permit, retained};
 use supervisor_terms::{Config, EpbState, Gear, Inputs, Reason};

@@ -6,11 +6,11 @@
 //! - K4 may open ⇒ standstill, executed torque known to be none (our own torque: `vet`);
 //! - K1 may close ⇒ restart complete and K4 known open; K4 may close ⇒ restart complete and K1 known closed.
 
-use crate::clock::Ticks;
 use crate::envelope::{ContactorBound, Permission};
-use crate::evidence::{Evidence, SeatView, percent};
 use crate::parking::Parking;
 use crate::seat::SeatState;
+use supervisor_observe::Ticks;
+use supervisor_observe::{Evidence, SeatView, percent};
 
 use supervisor_terms::word::{codes, permit, retained};
 use supervisor_terms::{Config, Contact, EpbState, Inputs, Key, Reason, Stage, Timer};
@@ -146,6 +146,7 @@ impl HighVoltage {
         evidence: &Evidence,
         inputs: &Inputs,
         held: Permission,
+        sound: Permission,
         config: &Config,
     ) -> (ContactorBound, ContactorBound) {
         let standing = held.and(permit!(evidence.standstill => Reason::NotStandstill));
@@ -156,8 +157,9 @@ impl HighVoltage {
             loads_stopped(inputs, config) => Reason::LoadsNotStopped,
         ));
         // SEAT-8, HV-1: closing needs the driver's restart, and no shutdown in progress.
-        let closing =
-            held.and(permit!(!committed => Reason::Shutdown, (self.restart == Restart::Started) => Reason::NoRestart));
+        let closing = held
+            .and(sound)
+            .and(permit!(!committed => Reason::Shutdown, (self.restart == Restart::Started) => Reason::NoRestart));
         let k1_close = closing.and(permit!(inputs.k4.is(Contact::Open) => Reason::K4NotOpen));
         let k4_close = closing.and(permit!(inputs.k1.is(Contact::Closed) => Reason::K1NotClosed));
         // The guards stand inside the obligation (rule 4): guard lost ⇒ it waits.

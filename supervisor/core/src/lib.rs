@@ -3,8 +3,9 @@
 //! Principles:
 //! 1. **Obligation needs evidence of a hazard; permission needs evidence of safety.** Unknown is evidence for
 //!    neither, and never cancels an obligation that has begun.
-//! 2. **Two cuts.** [`Threat`] is what perception says, any value legal; [`Envelope`] is what must and may happen
-//!    in this cycle. [`decide()`] goes from one to the other, [`vet()`] applies the second. Both are pure.
+//! 2. **Three cuts.** [`Threat`] is what perception says, [`Response`] whether the actuators follow, any value of both
+//!    legal; [`Envelope`] is what must and may happen in this cycle. [`decide()`] goes from the first two to the
+//!    third, [`vet()`] applies it. Both are pure.
 //! 3. **[`step()`] is the only way in**, for the target, tests, proofs, fuzzers, replay and the C ABI.
 //! 4. **Every state is legal.** No proof needs an invariant between machines; state rests as integers beside their
 //!    complement, and what does not decode is the safe state.
@@ -27,13 +28,12 @@ extern crate kani;
 
 mod boot;
 mod brake;
-mod clock;
 mod decide;
 mod drive;
 mod envelope;
-mod evidence;
 mod gear;
 mod high_voltage;
+mod latch;
 mod mitigation;
 mod parking;
 mod seat;
@@ -42,16 +42,17 @@ mod steering;
 mod step;
 mod vet;
 
+pub use supervisor_observe::{Clock, Follow, Monitors, Moves, SteeredAngle, Ticks};
 pub use supervisor_terms::*;
 
 pub use boot::{Boot, Pending};
 pub use brake::Brake;
-pub use clock::Clock;
 pub use decide::{Decided, decide};
 pub use drive::Drive;
 pub use envelope::*;
 pub use gear::{Direction, GearState};
 pub use high_voltage::{HighVoltage, LastKey, Restart};
+pub use latch::Latches;
 pub use mitigation::Mitigation;
 pub use parking::{Parking, PedalChain};
 pub use seat::SeatState;

@@ -3,8 +3,8 @@
 //! A begun level holds while its object closes; the driver's steering ends levels 1 and 2, nothing but
 //! standstill ends level 3 (readings c, d).
 
-use crate::clock::Ticks;
-use crate::evidence::{BrakePedal, Evidence};
+use supervisor_observe::Ticks;
+use supervisor_observe::{BrakePedal, Evidence};
 
 use supervisor_terms::word::retained;
 use supervisor_terms::{Alert, AngleDeciDeg, Closing, Config, DecelMs2Q11, EpbState, Inputs, Level, Threat, Timer};

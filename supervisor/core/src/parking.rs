@@ -8,10 +8,10 @@
 //! - release permitted ⇒ seat confirmed occupied in this very cycle (SEAT-5a);
 //! - apply obliged ⇒ release refused (`Envelope::is_feasible`).
 
-use crate::clock::Ticks;
 use crate::envelope::EpbBound;
-use crate::evidence::{Evidence, SeatView};
 use crate::seat::SeatState;
+use supervisor_observe::Ticks;
+use supervisor_observe::{Evidence, SeatView};
 
 use supervisor_terms::word::{codes, permit, retained};
 use supervisor_terms::{Config, Contact, EpbRequest, EpbState, EpbSwitch, Gear, Inputs, Outputs, Reason, Timer};
@@ -103,11 +103,14 @@ impl Parking {
         evidence: &Evidence,
         inputs: &Inputs,
         safe_state: bool,
+        forced: Option<Reason>,
         config: &Config,
     ) -> EpbBound {
         let switch = inputs.epb_switch.is(EpbSwitch::Apply);
         let obliged = if self.must_apply(seat, evidence, inputs, config) {
             Some(Reason::EpbApply)
+        } else if forced.is_some() {
+            forced
         } else if safe_state && self.slow {
             Some(Reason::SafeState)
         } else {
@@ -118,6 +121,7 @@ impl Parking {
             (seat.confirmed(config) && evidence.seat == SeatView::Occupied) => Reason::SeatNotOccupied,
             !safe_state => Reason::SafeState,
             (obliged != Some(Reason::EpbApply)) => Reason::EpbApply,
+            forced.is_none() => Reason::EpbApply,
             !switch => Reason::DriverSwitch,
             (!self.by_leave || self.pedal == PedalChain::PressedAnew) => Reason::ParkedByLeave,
         );

@@ -4,8 +4,8 @@
 //! - *Leave* begins when the bus is not parked and both sensors are vacant together for `seat_vacant`; it ends
 //!   only by confirmed occupied.
 
-use crate::clock::Ticks;
-use crate::evidence::{Evidence, SeatView};
+use supervisor_observe::Ticks;
+use supervisor_observe::{Evidence, SeatView};
 
 use supervisor_terms::word::retained;
 use supervisor_terms::{Config, Contact, EpbState, Inputs, Key, Timer};

@@ -2,17 +2,18 @@
 
 use crate::boot::Boot;
 use crate::brake::Brake;
-use crate::clock::Clock;
 use crate::drive::Drive;
 use crate::gear::GearState;
 use crate::high_voltage::HighVoltage;
+use crate::latch::Latches;
 use crate::mitigation::Mitigation;
 use crate::parking::Parking;
 use crate::seat::SeatState;
 use crate::steering::SteeringState;
 
+use supervisor_observe::{Clock, Monitors};
 use supervisor_terms::word::{Words, retained};
-use supervisor_terms::{Body, Faults, Record, ResetCause, Stage};
+use supervisor_terms::{Body, Faults, Flow, Image, Record, ResetCause, Stage};
 
 retained! {
     /// Everything the supervisor remembers from cycle to cycle.
@@ -41,8 +42,12 @@ retained! {
         steering: SteeringState = SteeringState::INITIAL,
         /// E2E-2: the body keeps its last output.
         body: Body = Body::NEUTRAL,
-        /// Latched faults; any of them is the safe state.
-        latched: Faults = Faults::NONE,
+        /// RSP, SELF-10.
+        monitors: Monitors = Monitors::INITIAL,
+        /// SELF-7.
+        latches: Latches = Latches::INITIAL,
+        /// SELF-6: the stages that the last cycle ran.
+        flow: Flow = Flow::RECORDED,
     }
 }
 
@@ -69,7 +74,7 @@ impl State {
     /// SELF-5: the state after retained words that did not decode: any other boot, in the safe state.
     #[must_use]
     pub fn corrupted() -> Self {
-        Self { latched: Faults::STATE, ..Self::boot(ResetCause::Other, None) }
+        Self { latches: Latches::with(Faults::STATE), ..Self::boot(ResetCause::Other, None) }
     }
 
     /// What the integrator persists now (SELF-9).
@@ -84,62 +89,15 @@ impl State {
         }
     }
 
-    /// SELF-5: any latched fault is the safe state.
+    /// SELF-5: a latched fault of the supervisor itself is the safe state.
     #[must_use]
     pub fn is_safe_state(&self) -> bool {
-        self.latched != Faults::NONE
+        self.latches.safe_state()
     }
 }
 
 /// Words of the state.
 pub const STATE_WORDS: usize = <State as Words>::COUNT;
 
-/// The state at rest: integers beside their complement. A flipped bit makes [`decode`](Self::decode) fail.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(kani, derive(kani::Arbitrary))]
-pub struct StateImage {
-    words: [u32; STATE_WORDS],
-    complement: [u32; STATE_WORDS],
-}
-
-impl StateImage {
-    /// Puts a state to rest.
-    #[must_use]
-    pub fn encode(state: &State) -> Self {
-        let mut image = Self { words: [0; STATE_WORDS], complement: [u32::MAX; STATE_WORDS] };
-        let mut slots = image.words.iter_mut().zip(image.complement.iter_mut());
-        state.write(&mut |word| {
-            if let Some((slot, complement)) = slots.next() {
-                *slot = word;
-                *complement = !word;
-            }
-        });
-        image
-    }
-
-    /// Whether every word and its complement agree.
-    #[must_use]
-    pub fn intact(&self) -> bool {
-        self.words.iter().zip(&self.complement).all(|(word, complement)| *word == !*complement)
-    }
-
-    /// The state, or `None` if the image is not intact, or a word decodes to no value.
-    #[must_use]
-    pub fn decode(&self) -> Option<State> {
-        let mut words = self.words.iter().copied();
-        if self.intact() { State::read(&mut || words.next()) } else { None }
-    }
-
-    /// The same image with bit `bit` of word `index` flipped; indices run over words, then complements.
-    ///
-    /// Fault injection in safe code: a flipped bit at rest.
-    #[must_use]
-    pub fn with_flipped_bit(mut self, index: usize, bit: u32) -> Self {
-        let mask = 1_u32.checked_shl(bit).unwrap_or(0);
-        let complement = index.checked_sub(STATE_WORDS).and_then(|index| self.complement.get_mut(index));
-        if let Some(word) = self.words.get_mut(index).or(complement) {
-            *word ^= mask;
-        }
-        self
-    }
-}
+/// The state at rest: integers beside their complement. A flipped bit makes [`decode`](Image::decode) fail.
+pub type StateImage = Image<STATE_WORDS>;

@@ -3,9 +3,9 @@
 //! The target moves from our last output by no more than the rate allows, towards the window that speed and the
 //! measured angle permit: on a fault it never jumps. Weight and overlay torque fade in and out.
 
-use crate::clock::Ticks;
 use crate::envelope::{Permission, SteeringBound};
-use crate::evidence::Evidence;
+use supervisor_observe::Evidence;
+use supervisor_observe::Ticks;
 
 use supervisor_terms::word::{permit, retained};
 use supervisor_terms::{
@@ -65,13 +65,21 @@ impl SteeringState {
         self.takeover.reached(config.takeover_time)
     }
 
-    pub(crate) fn advance(self, evidence: &Evidence, inputs: &Inputs, ticks: Ticks, config: &Config) -> Self {
+    /// `astray` says that the steering does not follow: it ends like a takeover (RSP-1).
+    pub(crate) fn advance(
+        self,
+        astray: bool,
+        evidence: &Evidence,
+        inputs: &Inputs,
+        ticks: Ticks,
+        config: &Config,
+    ) -> Self {
         let limit = config.takeover_torque.raw().unsigned_abs();
         let strong = inputs.driver_torque.known().is_some_and(|torque| torque.raw().unsigned_abs() > limit);
         let takeover = self.takeover.run_while(strong, ticks.safety);
         let angle = if self.acts() { self.angle } else { evidence.steering_angle.unwrap_or(self.angle) };
 
-        let barred = self.barred || takeover.reached(config.takeover_time);
+        let barred = self.barred || astray || takeover.reached(config.takeover_time);
         Self { angle, takeover, barred, ..self }
     }
 

@@ -6,8 +6,8 @@ use crate::state::{State, StateImage};
 use crate::vet::vet;
 
 use supervisor_terms::{
-    Commands, Config, ExitReason, Faults, Inputs, Level, Millis, Mode, Occupancy, Outputs, Record, Sealed, Stage,
-    Threat, Verdicts,
+    Checkpoint, Commands, Config, ExitReason, Faults, Flow, Inputs, Level, Millis, Mode, Occupancy, Outputs, Record,
+    Sealed, Stage, Threat, Verdicts,
 };
 
 /// The state after the cycle, for people and records. Nothing in it can be written back.
@@ -46,9 +46,13 @@ pub struct Decision {
     pub envelope: Envelope,
     /// Where the supervisor stands.
     pub status: Status,
+    /// The stages that ran: [`Flow::answer`] answers the watchdog (SELF-6).
+    pub flow: Flow,
 }
 
-/// One cycle: decode the state, decide, vet, put the state to rest.
+/// One cycle: decode the state, observe the actuators, decide, vet, put the state to rest.
+///
+/// `flow` has passed what ran before, [`Flow::PERCEIVED`] where perception did or was not needed (SELF-6).
 ///
 /// Total: any image, time, inputs, threat and commands give a decision (SELF-1). State that does not decode, or a
 /// configuration that has changed, is the safe state, latched (SELF-4, SELF-5).
@@ -56,20 +60,30 @@ pub struct Decision {
 pub fn step(
     image: &mut StateImage,
     sealed: &Sealed,
+    flow: Flow,
     now: Millis,
     inputs: &Inputs,
     threat: &Threat,
     commands: &Commands,
 ) -> Decision {
-    let retained = image.decode().unwrap_or_else(State::corrupted);
-    let (state, config) = match sealed.intact() {
-        Some(config) => (retained, config),
-        None => (State { latched: retained.latched.with(Faults::CONFIGURATION), ..retained }, &Config::DEFAULT),
-    };
-    let decided = decide(&state, now, inputs, threat, config);
+    let mut state = image.decode().unwrap_or_else(State::corrupted);
+    let flow = flow.pass(Checkpoint::Decode);
+    let config = sealed.intact().unwrap_or_else(|| {
+        state.latches.faults = state.latches.faults.with(Faults::CONFIGURATION);
+        &Config::DEFAULT
+    });
+    let flow = flow.pass(Checkpoint::Configuration);
+    let (_, ticks) = state.clock.advance(now, config);
+    let (monitors, response) = state.monitors.advance(inputs, ticks, config);
+    let flow = flow.pass(Checkpoint::Observe);
+    let decided = decide(&State { monitors, ..state }, now, inputs, threat, &response, config);
+    let flow = flow.pass(Checkpoint::Decide);
     let (outputs, verdicts) = vet(&decided.envelope, commands);
+    let flow = flow.pass(Checkpoint::Vet);
     let next = record(&decided, &outputs, commands, config);
-    *image = StateImage::encode(&next);
+    let flow = flow.pass(Checkpoint::Record);
+    *image = StateImage::encode(&State { flow, ..next });
+    let flow = flow.pass(Checkpoint::Encode);
     let lost = |reason: bool, fault| if reason { fault } else { Faults::NONE };
     let timeouts = decided.envelope.timeouts;
     let faults = decided
@@ -81,7 +95,7 @@ pub fn step(
             Faults::STEERING_COMMAND_LOST,
         ));
     let status = status(&next, faults, config);
-    Decision { outputs, verdicts, envelope: decided.envelope, status }
+    Decision { outputs, verdicts, envelope: decided.envelope, status, flow }
 }
 
 /// What went out becomes part of the state: rates, ramps and latches count from it.
@@ -101,6 +115,7 @@ pub fn record(decided: &Decided, outputs: &Outputs, commands: &Commands, config:
         brake: state.brake.record(outputs, due, usable, decided.ticks, config),
         steering: state.steering.record(outputs, &decided.envelope.steering, steers, decided.ticks, config),
         body: outputs.body,
+        monitors: state.monitors.record(outputs, braking, state.mitigation.three),
         ..state
     }
 }

@@ -119,6 +119,8 @@ pub fn vet_brake(envelope: &Envelope, command: Command<ServiceBrake>) -> (Servic
     }
     if wanted.total < bound.floor.most {
         out.total = bound.floor.most;
+        // VLC-2: what we ask for ourselves is split electric first; friction fills up.
+        out.electric = bound.electric.min(out.total);
         cause =
             Some(Verdict::below(Kind::Substitute, bound.floor.reason, wanted.total.wide(), bound.floor.most.wide()));
     }
@@ -144,7 +146,12 @@ pub fn vet_retarder(envelope: &Envelope, most: Bound<Percent>, command: Command<
     };
     let wanted = usable.unwrap_or(if bound.retarder_fallback > Percent::ZERO { fallback } else { Retarder::NEUTRAL });
     let (torque, pass, cause) = limited(wanted.torque, most);
-    let out = Retarder { torque, ..wanted };
+    // RSP-1: obliged, it gives all that the cap leaves.
+    let obliged =
+        Retarder { torque: most.most, mode: supervisor_terms::RetarderMode::Torque, priority: Priority::Highest };
+    let out = if bound.retarder_obliged { obliged } else { Retarder { torque, ..wanted } };
+    let helps = Verdict::below(Kind::Substitute, Reason::BrakeResponse, wanted.torque.wide(), most.most.wide());
+    let cause = if bound.retarder_obliged && out != wanted { Some(helps) } else { cause };
     (out, judge(usable, &out, &Retarder::NEUTRAL, pass, cause))
 }
 

@@ -58,11 +58,13 @@ impl FaultReport {
 mod tests {
     use super::*;
     use crate::{EventRecord, What};
-    use supervisor_core::{Commands, ConfigError, Inputs, Record, ResetCause, Sealed, State, StateImage, Threat, step};
+    use supervisor_core::{
+        Commands, ConfigError, Flow, Inputs, Record, ResetCause, Sealed, State, StateImage, Threat, step,
+    };
 
     fn decide(image: &mut StateImage, now: u32) -> Result<Decision, ConfigError> {
         let sealed = Sealed::from_default()?;
-        Ok(step(image, &sealed, Millis::new(now), &Inputs::NEVER, &Threat::UNKNOWN, &Commands::ABSENT))
+        Ok(step(image, &sealed, Flow::PERCEIVED, Millis::new(now), &Inputs::NEVER, &Threat::UNKNOWN, &Commands::ABSENT))
     }
 
     /// RPT-1: a fault is reported only after it has lasted, and counted once.

@@ -137,6 +137,26 @@ codes! {
     }
 }
 
+/// A set of channels.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(kani, derive(kani::Arbitrary))]
+pub struct Channels(u16);
+
+impl Channels {
+    /// None.
+    pub const NONE: Self = Self(0);
+    /// This set with another channel.
+    #[must_use]
+    pub fn with(self, channel: Channel) -> Self {
+        Self(self.0 | 1_u16.rotate_left(u32::from(channel.code())))
+    }
+    /// Whether the channel is in the set.
+    #[must_use]
+    pub fn contains(self, channel: Channel) -> bool {
+        self.with(channel) == self
+    }
+}
+
 /// What a channel was asked for in this cycle. Frames come every 10–200 ms, cycles every 10 ms.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(kani, derive(kani::Arbitrary))]

@@ -1,6 +1,9 @@
 //! What the supervisor reads itself, independently of the main controller.
 
-use crate::units::{AngleDeciDeg, CurrentDeciA, DecelMs2Q11, Pedal250, Percent, SpeedKmhQ8, TorqueNmQ10};
+use crate::command::Channels;
+use crate::units::{
+    AngleDeciDeg, CurrentDeciA, DecelMs2Q11, Mass10Kg, Pedal250, Percent, Pressure5KPa, SpeedKmhQ8, TorqueNmQ10,
+};
 use crate::word::codes;
 
 codes! {
@@ -193,6 +196,12 @@ pub struct Inputs {
     pub electric_limit: Signal<DecelMs2Q11>,
     /// Greatest friction deceleration that the brake system allows now.
     pub friction_limit: Signal<DecelMs2Q11>,
+    /// Electric deceleration that the drive gives now (VLC-3).
+    pub electric_actual: Signal<DecelMs2Q11>,
+    /// Mass of the vehicle by which the brake system splits (VLC-3).
+    pub mass: Signal<Mass10Kg>,
+    /// Brake pressure of the front and the rear axle (VLC-3).
+    pub axle_pressure: [Signal<Pressure5KPa>; 2],
     /// Measured deceleration; 0 when the bus does not slow down.
     pub deceleration: Signal<DecelMs2Q11>,
     /// Anti-lock brakes at work (S4 BKR 2).
@@ -213,6 +222,10 @@ pub struct Inputs {
     pub hands_off: Signal<bool>,
     /// The automated driving system.
     pub ads: Signal<AdsState>,
+    /// Channels on which the bus showed an actuator message that is not our last output (SELF-10).
+    pub foreign: Channels,
+    /// The bus showed a frame with our source address that we did not send (SELF-10).
+    pub second_sender: bool,
 }
 
 impl Inputs {
@@ -243,6 +256,9 @@ impl Inputs {
         executed_torque: Signal::NEVER,
         electric_limit: Signal::NEVER,
         friction_limit: Signal::NEVER,
+        electric_actual: Signal::NEVER,
+        mass: Signal::NEVER,
+        axle_pressure: [Signal::NEVER; 2],
         deceleration: Signal::NEVER,
         abs: Signal::NEVER,
         asr: Signal::NEVER,
@@ -253,5 +269,7 @@ impl Inputs {
         eps: Signal::NEVER,
         hands_off: Signal::NEVER,
         ads: Signal::NEVER,
+        foreign: Channels::NONE,
+        second_sender: false,
     };
 }

@@ -17,8 +17,11 @@
 extern crate kani;
 
 mod command;
+mod flow;
+mod image;
 mod input;
 mod limits;
+mod response;
 mod sealed;
 mod status;
 mod threat;
@@ -29,20 +32,23 @@ mod verdict;
 pub mod word;
 
 pub use command::{
-    Auxiliaries, Body, BrakeMode, Channel, Command, Commands, ContactorRequest, Contactors, DriveTorque, DrivingMode,
-    EpbRequest, GearRequest, Origin, Outputs, ParkingBrake, Priority, Rejection, Retarder, RetarderMode, ServiceBrake,
-    Steering, Warnings, Wiper,
+    Auxiliaries, Body, BrakeMode, Channel, Channels, Command, Commands, ContactorRequest, Contactors, DriveTorque,
+    DrivingMode, EpbRequest, GearRequest, Origin, Outputs, ParkingBrake, Priority, Rejection, Retarder, RetarderMode,
+    ServiceBrake, Steering, Warnings, Wiper,
 };
+pub use flow::{Checkpoint, Flow};
+pub use image::Image;
 pub use input::{
     AdsState, Cause, Contact, EpbMode, EpbState, EpbSwitch, EpsState, Gear, Inputs, Key, Seat, Signal, XbrStatus,
 };
 pub use limits::{Config, LIMITS, Limit, Row};
+pub use response::{Deviation, Response};
 pub use sealed::{ConfigError, SEALED_BYTES, Sealed};
 pub use status::{Mode, Occupancy, Record, ResetCause, Stage};
 pub use threat::{Alert, Closing, Level, Object, Threat};
 pub use units::{
-    AngleDeciDeg, BarTorque50mNm, ClosingCmS, Count, CurrentDeciA, DecelMs2Q11, DistanceCm, Millis, OffsetCm, Pedal250,
-    Percent, PercentPerS, RateDeciDegS, Rest, SpeedKmhQ8, Timer, TorqueNmQ10,
+    AngleDeciDeg, BarTorque50mNm, ClosingCmS, Count, CurrentDeciA, DecelMs2Q11, DistanceCm, Mass10Kg, Millis, OffsetCm,
+    Pedal250, Percent, PercentPerS, Pressure5KPa, RateDeciDegS, Rest, SpeedKmhQ8, Timer, TorqueNmQ10,
 };
 pub use unknown::{Group, Meaning, meaning};
 pub use verdict::{ExitReason, Faults, Kind, Reason, Verdict, Verdicts};

@@ -4,8 +4,8 @@
 //! ours that the safety case names as an assumption.
 
 use crate::units::{
-    AngleDeciDeg, BarTorque50mNm, Count, CurrentDeciA, DecelMs2Q11, DistanceCm, Millis, OffsetCm, Pedal250, Percent,
-    PercentPerS, RateDeciDegS, SpeedKmhQ8, TorqueNmQ10,
+    AngleDeciDeg, BarTorque50mNm, Count, CurrentDeciA, DecelMs2Q11, DistanceCm, Mass10Kg, Millis, OffsetCm, Pedal250,
+    Percent, PercentPerS, Pressure5KPa, RateDeciDegS, SpeedKmhQ8, TorqueNmQ10,
 };
 use crate::word::permit;
 use crate::word::{Word, Words};
@@ -47,7 +47,7 @@ macro_rules! field {
     )*};
 }
 field!(AngleDeciDeg, BarTorque50mNm, CurrentDeciA, DecelMs2Q11, DistanceCm, Millis, OffsetCm);
-field!(Count, PercentPerS, Pedal250, Percent, RateDeciDegS, SpeedKmhQ8, TorqueNmQ10);
+field!(Mass10Kg, Pressure5KPa, Count, PercentPerS, Pedal250, Percent, RateDeciDegS, SpeedKmhQ8, TorqueNmQ10);
 
 /// A row of values at fixed points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -293,6 +293,46 @@ limits! {
     steering_speed_least: SpeedKmhQ8 = [0], 0..=25600, "1/256 km/h", "S4 6.3.2, own", "STR-2e";
     /// Automatic steering, highest speed.
     steering_speed_greatest: SpeedKmhQ8 = [15360], 2560..=65535, "1/256 km/h", "S4 6.3.2, own (60 km/h)", "STR-2e";
+
+    // Longitudinal mode and brake split (S2 §1, S3 §2.3)
+    /// Which longitudinal mode the bus has: 0 is ADAS-VLC, 1 is EPBi-VLC.
+    longitudinal_mode: Count = [0], 0..=1, "code", "S2 §1", "VLC-1d";
+    /// Least and greatest plausible mass.
+    mass_range: Row<Mass10Kg, 2> = [600, 2000], 100..=6000, "10 kg", "own (6 to 20 t)", "VLC-3a";
+    /// Greatest plausible brake pressure of an axle.
+    axle_pressure_most: Pressure5KPa = [220], 100..=250, "5 kPa", "own (1100 kPa)", "VLC-3a";
+    /// The electric deceleration may exceed its own limit by this much before it is not plausible.
+    electric_excess: DecelMs2Q11 = [1024], 0..=4096, "1/2048 m/s²", "own (0.5 m/s²)", "VLC-3a";
+
+    // Response of the actuators (S4 tables 2 to 4)
+    /// Drive torque: from its first response to 95 %, and from the command, dead time included.
+    response_drive: Millis = [500], 200..=2000, "ms", "S4 table 2", "RSP-1a";
+    /// Brake: from its first response to 95 %; in level 3; from the command, dead time included.
+    response_brake: Row<Millis, 3> = [700, 500, 1000], 200..=3000, "ms", "S4 table 3, reading i", "RSP-1b";
+    /// Then the retarder has this long before the parking brake follows.
+    response_retarder: Millis = [500], 100..=2000, "ms", "own", "EPB-1b";
+    /// Gearbox.
+    response_gear: Millis = [800], 200..=2000, "ms", "S4 6.1.6", "RSP-1d";
+    /// Steering: first response (100 ms inertia, 100 ms dead time and feedback), then the target.
+    response_steering: Row<Millis, 2> = [200, 500], 100..=2000, "ms", "S4 table 4, dead time own", "RSP-1e";
+    /// Greatest steady-state error and overshoot.
+    response_error: Percent = [15], 5..=50, "%", "S4 tables 2, 3, reading i", "RSP-1i";
+    /// Overshoot and excess are reported after this long.
+    response_overshoot: Millis = [500], 100..=2000, "ms", "own", "RSP-1j";
+    /// Brakes are compared above this speed only.
+    response_speed: SpeedKmhQ8 = [1280], 512..=5120, "1/256 km/h", "own (5 km/h)", "RSP-1b";
+    /// Brakes are compared from this deceleration on.
+    response_decel: DecelMs2Q11 = [1024], 205..=2765, "1/2048 m/s²", "own (0.5 m/s²)", "RSP-1b";
+    /// Brakes may give this much more than they were told: drag, slope.
+    response_drag: DecelMs2Q11 = [2048], 0..=4096, "1/2048 m/s²", "own (1 m/s²)", "RSP-1j";
+    /// The steering may be off its target by this much, and 15 %.
+    response_angle: AngleDeciDeg = [20], 10..=200, "0.1°", "own (2°; S4 table 4: least command 1°)", "RSP-1i";
+    /// The drive may give this much more than it was told, and 15 %.
+    torque_excess: Percent = [5], 1..=20, "%", "own", "TRQ-7a";
+    /// A bypass counts this long after it was last seen.
+    bypass_hold: Millis = [2000], 500..=10000, "ms", "own", "SELF-10c";
+    /// Latched faults clear only after this long without one.
+    fault_free: Millis = [10000], 1000..=60000, "ms", "own", "SELF-7b";
 }
 
 fn rising<T: PartialOrd + Copy>(values: &[T]) -> bool {
@@ -309,6 +349,7 @@ impl Config {
         let [exit_one, exit_two] = self.level_exit_angle.0;
         let [enter_one, enter_two, _] = self.level_angle.0;
         let [_, _, decel_three] = self.level_decel.0;
+        let [ordinary, emergency, outer] = self.response_brake.0;
         let leave_greatest = self.leave_decel.0.last().copied().unwrap_or(self.leave_hold);
         let broken: Result<(), &'static str> = permit!(
             (self.cycle_nominal >= self.cycle_least && self.cycle_nominal <= self.cycle_greatest) => "cycle_least <= cycle_nominal <= cycle_greatest",
@@ -330,6 +371,10 @@ impl Config {
             (falling(&self.steering_angle.0) && falling(&self.steering_rate.0)) => "steering_angle, steering_rate fall with speed",
             (self.steering_overlay < self.takeover_torque) => "steering_overlay < takeover_torque",
             (self.steering_speed_least < self.steering_speed_greatest) => "steering_speed_least < steering_speed_greatest",
+            (rising(&self.mass_range.0)) => "mass_range: least before greatest",
+            (emergency <= ordinary && ordinary <= outer)
+                => "response_brake: level 3 <= ordinary <= from the command",
+            (rising(&self.response_steering.0)) => "response_steering: first response before the target",
         );
         broken.err()
     }

@@ -59,6 +59,10 @@ unit! {
     BarTorque50mNm(u8, i32);
     /// High-voltage current, 0.1 A per bit, discharge positive.
     CurrentDeciA(i16, i32);
+    /// Mass, 10 kg per bit (J1939 SPN 1760).
+    Mass10Kg(u16, i32);
+    /// Brake pressure, 5 kPa per bit (J1939 SPN 1091).
+    Pressure5KPa(u8, i32);
     /// Longitudinal distance, 1 cm per bit, 0 to 655.35 m.
     DistanceCm(u16, i32);
     /// Lateral offset from the predicted path, 1 cm per bit, left positive.
@@ -87,7 +91,7 @@ macro_rules! unsigned_word {
     )*};
 }
 unsigned_word!(SpeedKmhQ8(u16), DecelMs2Q11(u16), Percent(u8), Pedal250(u8), RateDeciDegS(u16));
-unsigned_word!(Count(u8), PercentPerS(u16));
+unsigned_word!(Count(u8), PercentPerS(u16), Mass10Kg(u16), Pressure5KPa(u8));
 unsigned_word!(BarTorque50mNm(u8), DistanceCm(u16), Millis(u32));
 
 macro_rules! signed_word {

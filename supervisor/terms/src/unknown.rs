@@ -38,7 +38,7 @@ codes! {
         Loads = 12,
         /// Drive limit and executed torque.
         Drive = 13,
-        /// Electric and friction limits of the brake.
+        /// Limits of the brake, and the values by which it splits.
         BrakeLimits = 14,
         /// Measured deceleration.
         Motion = 15,
@@ -127,7 +127,11 @@ impl Inputs {
                 (self.drive_stopped, self.auxiliaries_stopped) = (Signal::NEVER, Signal::NEVER);
             }
             Group::Drive => (self.drive_limit, self.executed_torque) = (Signal::NEVER, Signal::NEVER),
-            Group::BrakeLimits => (self.electric_limit, self.friction_limit) = (Signal::NEVER, Signal::NEVER),
+            Group::BrakeLimits => {
+                (self.electric_limit, self.friction_limit) = (Signal::NEVER, Signal::NEVER);
+                (self.electric_actual, self.mass) = (Signal::NEVER, Signal::NEVER);
+                self.axle_pressure = [Signal::NEVER; 2];
+            }
             Group::Motion => self.deceleration = Signal::NEVER,
             Group::SlipControl => (self.abs, self.asr, self.stability) = (Signal::NEVER, Signal::NEVER, Signal::NEVER),
             Group::BrakeStatus => {

@@ -27,6 +27,8 @@ codes! {
         SafeState = 3,
         /// Clock fault in this cycle (SELF-3).
         ClockFault = 4,
+        /// Somebody else commands an actuator, or one moved by itself (SELF-10).
+        Bypass = 5,
 
         /// A mitigation level runs (MIT-1 to MIT-5).
         Mitigation = 10,
@@ -48,6 +50,8 @@ codes! {
         ElectricLimit = 18,
         /// ABS at work (RET-1).
         AntiLock = 19,
+        /// The brakes give less than is obliged: the next stronger means (RSP-1, EPB-1).
+        BrakeResponse = 20,
 
         /// More torque than the accelerator allows (TRQ-1).
         PedalMap = 30,
@@ -79,6 +83,10 @@ codes! {
         SlipControl = 43,
         /// An obstacle ahead calls for mitigation: no automated torque towards it (TRQ-2).
         ObstacleAhead = 45,
+        /// The drive gives more than it was told (TRQ-7).
+        ExcessTorque = 46,
+        /// The sender belongs to the longitudinal mode that is not configured (VLC-1).
+        NotConfigured = 47,
         /// Target speed above the limit or above what the mode allows (SPD-1).
         SpeedLimit = 44,
 
@@ -110,6 +118,9 @@ codes! {
         /// K1 is not confirmed closed: K1 closes before K4 (SEAT-8).
         K1NotClosed = 64,
 
+        /// A contactor fault is latched: nothing closes (SELF-7).
+        ContactorFault = 65,
+
         /// Automatic steering is not permitted (STR-2).
         SteeringRefused = 70,
         /// The driver has taken over (STR-2).
@@ -128,6 +139,8 @@ codes! {
         SteeringWeight = 77,
         /// The bar-torque limit would widen the authority (STR-1).
         BarTorque = 78,
+        /// The steering does not follow (RSP-1).
+        SteeringResponse = 79,
 
         /// A warning is obliged (FCW-1, PCW-1, SEAT-1, RPT-1).
         WarningObliged = 80,
@@ -162,6 +175,8 @@ codes! {
         Fault = 9,
         /// A mitigation level has begun: it needs new driver evidence afterwards.
         Mitigation = 10,
+        /// Somebody else commands an actuator, or the drive does not obey (SELF-10, TRQ-7).
+        Bypass = 11,
     }
 }
 
@@ -288,6 +303,30 @@ faults! {
     EBS_RED = 17;
     /// The driver has taken over (STR-2).
     TAKEOVER = 18;
+    /// The drive does not reach its torque in time, or stays beyond 15 % below it (RSP-1).
+    DRIVE_RESPONSE = 19;
+    /// The brakes do not reach their deceleration in time, stay beyond 15 % below it, or can not give it (RSP-1).
+    BRAKE_RESPONSE = 20;
+    /// The gearbox does not follow in time (RSP-1).
+    GEAR_RESPONSE = 21;
+    /// The steering does not follow in time (RSP-1).
+    STEERING_RESPONSE = 22;
+    /// The drive gives more torque than it was told (TRQ-7).
+    EXCESS_TORQUE = 23;
+    /// An actuator was commanded or moved past us (SELF-10).
+    BYPASS = 24;
+    /// Somebody sends under our address (SELF-10).
+    SECOND_SENDER = 25;
+    /// A contactor moved by itself or did not follow (SELF-7); latched.
+    CONTACTOR = 26;
+    /// A stage of the cycle was skipped, repeated or out of order (SELF-6); latched.
+    FLOW = 27;
+    /// A value by which the brake system splits is not plausible (VLC-3).
+    SPLIT_IMPLAUSIBLE = 28;
+    /// The brakes give beyond 15 % more than they were told (RSP-1).
+    BRAKE_OVERSHOOT = 29;
+    /// The steering goes beyond 15 % over its target (RSP-1).
+    STEERING_OVERSHOOT = 30;
 }
 
 impl Faults {
@@ -295,6 +334,8 @@ impl Faults {
     pub const NONE: Self = Self(0);
     /// What is reported without a fault lamp.
     pub const HINTS: Self = Self::TTC_DISAGREEMENT.with(Self::TAKEOVER);
+    /// What is the safe state while it is latched.
+    pub const SAFE_STATE: Self = Self::STATE.with(Self::CLOCK_LATCHED).with(Self::CONFIGURATION).with(Self::FLOW);
     /// The bits.
     #[must_use]
     pub const fn bits(self) -> u32 {
@@ -314,6 +355,11 @@ impl Faults {
     #[must_use]
     pub const fn when(self, condition: bool, fault: Self) -> Self {
         if condition { self.with(fault) } else { self }
+    }
+    /// What both sets have.
+    #[must_use]
+    pub const fn and(self, other: Self) -> Self {
+        Self(self.0 & other.0)
     }
     /// Whether every fault of `other` is in this set.
     #[must_use]

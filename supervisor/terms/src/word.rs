@@ -42,6 +42,25 @@ impl Word for u8 {
     }
 }
 
+impl Word for u16 {
+    fn to_word(self) -> u32 {
+        u32::from(self)
+    }
+    fn from_word(word: u32) -> Option<Self> {
+        Self::try_from(word).ok()
+    }
+}
+
+/// `None` rests as the one word that no [`codes!`](crate::codes) value rests as; for those alone.
+impl<T: Word> Word for Option<T> {
+    fn to_word(self) -> u32 {
+        self.map_or(u32::MAX, T::to_word)
+    }
+    fn from_word(word: u32) -> Option<Self> {
+        if word == u32::MAX { Some(None) } else { T::from_word(word).map(Some) }
+    }
+}
+
 /// A fixed sequence of words: a machine's state, a configuration, an array of either.
 pub trait Words: Sized {
     /// How many words it takes.

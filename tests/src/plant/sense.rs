@@ -1,8 +1,8 @@
 //! What the sensors of the bus say, as the supervisor reads it.
 
 use supervisor::{
-    AdsState, AngleDeciDeg, Cause, Contact, CurrentDeciA, DecelMs2Q11, EpbMode, EpsState, Inputs, Pedal250, Percent,
-    Scene, Seat, Signal, SpeedKmhQ8, TorqueNmQ10, XbrStatus,
+    AdsState, AngleDeciDeg, Cause, Channels, Contact, CurrentDeciA, DecelMs2Q11, EpbMode, EpsState, Inputs, Mass10Kg,
+    Pedal250, Percent, Pressure5KPa, Scene, Seat, Signal, SpeedKmhQ8, TorqueNmQ10, XbrStatus,
 };
 
 use super::Plant;
@@ -54,6 +54,12 @@ impl Plant<'_> {
             executed_torque: Signal::Known(Percent::new(to_u8(self.drive.value() * 100.0))),
             electric_limit: decel(self.electric_limit()),
             friction_limit: decel(self.parameters.friction_decel),
+            electric_actual: decel(self.electric.value()),
+            mass: Signal::Known(Mass10Kg::new(to_u16(self.parameters.mass_kg / 10.0))),
+            // Pressure that goes with the friction force: 800 kPa with all of it.
+            axle_pressure: [Signal::Known(Pressure5KPa::new(to_u8(
+                self.friction.value() / self.parameters.friction_decel * 160.0,
+            ))); 2],
             deceleration: decel(self.measured_deceleration.value().max(0.0)),
             abs: Signal::Known(false),
             asr: Signal::Known(false),
@@ -64,6 +70,8 @@ impl Plant<'_> {
             eps: Signal::Known(if self.steers { EpsState::Active } else { EpsState::Ready }),
             hands_off: Signal::Known(!driver.seat(self.now_ms)[0]),
             ads: Signal::Known(if self.automated { AdsState::Active } else { AdsState::Ready }),
+            foreign: Channels::NONE,
+            second_sender: false,
         };
         (inputs, self.eyes.scene(self.now_ms))
     }

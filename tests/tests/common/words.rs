@@ -157,6 +157,9 @@ pub const fn healthy() -> Inputs {
         executed_torque: known(Percent::ZERO),
         electric_limit: known(ms2(200)),
         friction_limit: known(ms2(600)),
+        electric_actual: known(DecelMs2Q11::ZERO),
+        mass: known(Mass10Kg::new(1_500)),
+        axle_pressure: [known(Pressure5KPa::ZERO); 2],
         deceleration: known(DecelMs2Q11::ZERO),
         abs: known(false),
         asr: known(false),
@@ -167,6 +170,8 @@ pub const fn healthy() -> Inputs {
         eps: known(EpsState::Ready),
         hands_off: known(false),
         ads: known(AdsState::Standby),
+        foreign: Channels::NONE,
+        second_sender: false,
     }
 }
 

@@ -101,6 +101,7 @@ impl Random {
             eps: self.signal(|r| r.one(EpsState::ALL)),
             hands_off: self.signal(Self::bool),
             ads: self.signal(|r| r.one(AdsState::ALL)),
+            ..Inputs::NEVER
         }
     }
 

@@ -1,10 +1,12 @@
 //! What the inputs of one cycle are evidence for. Unknown is evidence for nothing (rule 1).
 
-use supervisor_terms::{AngleDeciDeg, Config, Inputs, Pedal250, Percent, Seat, Signal, SpeedKmhQ8};
+use supervisor_terms::{
+    AngleDeciDeg, Config, DecelMs2Q11, Inputs, Pedal250, Percent, Pressure5KPa, Seat, Signal, SpeedKmhQ8,
+};
 
 /// The two speeds, where they agree (rule 6).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Speed {
+pub struct Speed {
     /// The lower one: for obligations.
     pub low: SpeedKmhQ8,
     /// The higher one: for interlocks.
@@ -13,7 +15,7 @@ pub(crate) struct Speed {
 
 /// What both seat sensors say together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum SeatView {
+pub enum SeatView {
     /// Both known occupied.
     Occupied,
     /// Both known vacant.
@@ -26,7 +28,7 @@ pub(crate) enum SeatView {
 
 /// The brake pedal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum BrakePedal {
+pub enum BrakePedal {
     /// Known pressed, this far where both tracks agree.
     Pressed(Option<Pedal250>),
     /// Known released by the switch and both tracks.
@@ -37,21 +39,31 @@ pub(crate) enum BrakePedal {
 
 /// The evidence of one cycle.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Evidence {
+pub struct Evidence {
+    /// Both speeds, where they agree.
     pub speed: Option<Speed>,
+    /// Both seat sensors.
     pub seat: SeatView,
     /// Both tracks, where they agree: the lower one.
     pub accelerator: Option<Pedal250>,
     /// Any track says pressed.
     pub accelerator_pressed: bool,
+    /// The brake pedal.
     pub brake_pedal: BrakePedal,
+    /// The steering-wheel angle, where plausible.
     pub steering_angle: Option<AngleDeciDeg>,
+    /// Electric deceleration that may be used: 0 where slip control is at work or unknown, the limit is unknown, or a
+    /// value by which the brake system splits is not plausible (VLC-2, VLC-3).
+    pub electric: DecelMs2Q11,
+    /// A value by which the brake system splits is known and not plausible (VLC-3).
+    pub split_implausible: bool,
     /// Known below the standstill speed (reading e).
     pub standstill: bool,
 }
 
 /// A percentage that is known and plausible.
-pub(crate) fn percent(signal: Signal<Percent>) -> Option<Percent> {
+#[must_use]
+pub fn percent(signal: Signal<Percent>) -> Option<Percent> {
     signal.known().filter(|percent| *percent <= Percent::FULL)
 }
 
@@ -93,11 +105,39 @@ fn brake_pedal(inputs: &Inputs, config: &Config) -> BrakePedal {
     }
 }
 
+/// VLC-3: whether a value by which the brake system splits is plausible; `None` while it is unknown.
+fn plausible<T: Copy + PartialEq + PartialOrd>(signal: Signal<T>, least: T, most: T) -> Option<bool> {
+    signal.known().map(|value| value >= least && value <= most)
+}
+
+/// VLC-2, VLC-3: what the brake system may give electrically, and whether a value for the split is implausible.
+fn split(inputs: &Inputs, config: &Config) -> (DecelMs2Q11, bool) {
+    let [lightest, heaviest] = config.mass_range.0;
+    let [front, rear] = inputs.axle_pressure;
+    let limit = inputs.electric_limit.known().unwrap_or(DecelMs2Q11::ZERO);
+    let actual_most = DecelMs2Q11::new(limit.raw().saturating_add(config.electric_excess.raw()));
+    let none = Pressure5KPa::ZERO;
+    let mass = plausible(inputs.mass, lightest, heaviest);
+    let front = plausible(front, none, config.axle_pressure_most);
+    let rear = plausible(rear, none, config.axle_pressure_most);
+    let actual = plausible(inputs.electric_actual, DecelMs2Q11::ZERO, actual_most);
+    let bad = mass == Some(false)
+        || front == Some(false)
+        || rear == Some(false)
+        || (actual == Some(false) && inputs.electric_limit.known().is_some());
+    let good = mass == Some(true) && front == Some(true) && rear == Some(true) && actual == Some(true);
+    // VLC-2: slip control at work or unknown: friction alone.
+    let grip = inputs.abs.is(false) && inputs.asr.is(false) && inputs.stability.is(false);
+    (if good && grip { limit } else { DecelMs2Q11::ZERO }, bad)
+}
+
 impl Evidence {
     /// Reads the inputs once.
-    pub(crate) fn gather(inputs: &Inputs, config: &Config) -> Self {
+    #[must_use]
+    pub fn gather(inputs: &Inputs, config: &Config) -> Self {
         let speed = speed(inputs, config);
         let [first, second] = inputs.seat;
+        let (electric, split_implausible) = split(inputs, config);
         let seat = match (first.known(), second.known()) {
             (Some(Seat::Occupied), Some(Seat::Occupied)) => SeatView::Occupied,
             (Some(Seat::Vacant), Some(Seat::Vacant)) => SeatView::Vacant,
@@ -114,24 +154,30 @@ impl Evidence {
                 .steering_angle
                 .known()
                 .filter(|angle| angle.raw().unsigned_abs() <= config.steering_range.raw().unsigned_abs()),
+            electric,
+            split_implausible,
             standstill: speed.is_some_and(|speed| speed.high < config.standstill_speed),
         }
     }
 
     /// Known to be slower than `limit`, by the lower speed: evidence for an obligation.
-    pub(crate) fn obliged_below(&self, limit: SpeedKmhQ8) -> bool {
+    #[must_use]
+    pub fn obliged_below(&self, limit: SpeedKmhQ8) -> bool {
         self.speed.is_some_and(|speed| speed.low < limit)
     }
     /// The same, keeping what was last known while the speed is unknown: an obligation that has begun stays (rule 1).
-    pub(crate) fn slow(&self, limit: SpeedKmhQ8, before: bool) -> bool {
+    #[must_use]
+    pub fn slow(&self, limit: SpeedKmhQ8, before: bool) -> bool {
         self.speed.map_or(before, |speed| speed.low < limit)
     }
     /// Known to be slower than `limit`, by the higher speed: evidence for a permission.
-    pub(crate) fn surely_below(&self, limit: SpeedKmhQ8) -> bool {
+    #[must_use]
+    pub fn surely_below(&self, limit: SpeedKmhQ8) -> bool {
         self.speed.is_some_and(|speed| speed.high < limit)
     }
     /// Known to be at least as fast as `limit`, by the lower speed.
-    pub(crate) fn surely_at_least(&self, limit: SpeedKmhQ8) -> bool {
+    #[must_use]
+    pub fn surely_at_least(&self, limit: SpeedKmhQ8) -> bool {
         self.speed.is_some_and(|speed| speed.low >= limit)
     }
 }

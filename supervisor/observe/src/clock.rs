@@ -20,7 +20,8 @@ retained! {
 
 /// What this cycle adds to the timers.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Ticks {
+#[cfg_attr(kani, derive(kani::Arbitrary))]
+pub struct Ticks {
     /// For everything that leads to a permission, or ends an obligation: 0 in a cycle with a clock fault.
     pub permission: Millis,
     /// For everything that leads to an obligation or ends a permission: nominal in a cycle with a clock fault.
@@ -31,7 +32,8 @@ pub(crate) struct Ticks {
 
 impl Clock {
     /// SELF-3: judges the time since the last cycle.
-    pub(crate) fn advance(self, now: Millis, config: &Config) -> (Self, Ticks) {
+    #[must_use]
+    pub fn advance(self, now: Millis, config: &Config) -> (Self, Ticks) {
         let elapsed = Millis::new(now.raw().wrapping_sub(self.last.raw()));
         let plausible = elapsed >= config.cycle_least && elapsed <= config.cycle_greatest;
         let next = |faults| Self { started: true, last: now, faults };
@@ -47,7 +49,8 @@ impl Clock {
     }
 
     /// SELF-3: three in a row lead to the safe state.
-    pub(crate) const fn is_lost(self) -> bool {
+    #[must_use]
+    pub const fn is_lost(self) -> bool {
         self.faults >= FAULTS_IN_A_ROW
     }
 }

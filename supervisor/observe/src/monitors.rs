@@ -1,0 +1,240 @@
+//! Do the actuators follow, and nobody else's commands? (RSP-1, TRQ-7, SELF-10, VLC-2f)
+//!
+//! The monitors keep what went out and compare it with what comes back. They decide nothing: their [`Response`] says
+//! what was found, and the decision core calls the next stronger means. Unknown feedback is evidence for neither:
+//! what was confirmed stays, nothing new is.
+
+use supervisor_terms::word::retained;
+use supervisor_terms::{
+    AngleDeciDeg, Channels, Config, Contact, ContactorRequest, DecelMs2Q11, Deviation, EpbRequest, EpbState, EpsState,
+    Faults, Gear, GearRequest, Inputs, Millis, Outputs, Percent, Response, Timer,
+};
+
+use crate::clock::Ticks;
+use crate::evidence::percent;
+use crate::follow::Follow;
+use crate::moves::Moves;
+use crate::steered::SteeredAngle;
+
+retained! {
+    /// What went out, and how well it was followed.
+    Monitors {
+        /// Service brake and retarder together.
+        brake: Follow = Follow::INITIAL,
+        /// How long the brakes have fallen short.
+        short: Timer = Timer::STOPPED,
+        /// How long they have given too much.
+        brake_over: Timer = Timer::STOPPED,
+        /// Drive torque, too little.
+        drive: Follow = Follow::INITIAL,
+        /// Drive torque, too much: since when.
+        excess: Timer = Timer::STOPPED,
+        /// The greatest torque told since then.
+        told: Percent = Percent::ZERO,
+        /// The drive was found to disobey: it is told 0, and no more is allowed to it.
+        disobeys: bool = false,
+        /// The steering angle.
+        steering: SteeredAngle = SteeredAngle::INITIAL,
+        /// The power steering steers though no output lets it.
+        steers: Timer = Timer::STOPPED,
+        /// Gear asked for and not confirmed.
+        gear: Timer = Timer::STOPPED,
+        /// The gearbox.
+        gearbox: Moves<Gear> = Moves::INITIAL,
+        /// The parking brake.
+        epb: Moves<EpbState> = Moves::INITIAL,
+        /// It was released though no output released it, and has not been applied since.
+        loose: bool = false,
+        /// K4.
+        k4: Moves<Contact> = Moves::INITIAL,
+        /// K1.
+        k1: Moves<Contact> = Moves::INITIAL,
+        /// Since a bypass was last seen.
+        bypass: Timer = Timer::STOPPED,
+        /// Last output: total deceleration.
+        total: DecelMs2Q11 = DecelMs2Q11::ZERO,
+        /// Last output: in level 3.
+        emergency: bool = false,
+        /// Last output: drive torque.
+        torque: Percent = Percent::ZERO,
+        /// Last output: steering angle.
+        angle: AngleDeciDeg = AngleDeciDeg::ZERO,
+        /// Last output: weight of the steering.
+        weight: Percent = Percent::ZERO,
+    }
+}
+
+/// What `percent` of a value is.
+fn share(value: u16, percent: Percent) -> u16 {
+    u16::try_from(u32::from(value).saturating_mul(u32::from(percent.raw())) / 100).unwrap_or(u16::MAX)
+}
+
+impl Monitors {
+    /// Compares the feedback of this cycle with the last output.
+    #[must_use]
+    pub fn advance(self, inputs: &Inputs, ticks: Ticks, config: &Config) -> (Self, Response) {
+        let (gearbox, gear_alone) = self.gearbox.advance(inputs.gear.known());
+        let (epb, epb_alone) = self.epb.advance(inputs.epb.known());
+        let (k4, k4_alone) = self.k4.advance(inputs.k4.known());
+        let (k1, k1_alone) = self.k1.advance(inputs.k1.known());
+        let gear_waits = gearbox.asked.is_some() && inputs.gear.known().is_some() && gearbox.asked != gearbox.seen;
+        let steers_alone = inputs.eps.is(EpsState::Active) && self.weight == Percent::ZERO;
+        let next = Self {
+            gearbox,
+            epb,
+            k4,
+            k1,
+            gear: self.gear.run_while(gear_waits, ticks.safety),
+            loose: (self.loose || (epb_alone && inputs.epb.is(EpbState::Released)))
+                && !inputs.epb.is(EpbState::Applied),
+            steers: self.steers.run_while(steers_alone, ticks.safety),
+            ..self
+        };
+        let next = next.with_brake(inputs, ticks.safety, config).with_drive(inputs, ticks.safety, config);
+        let next = next.with_steering(inputs, ticks.safety, config);
+
+        let [_, steering_outer] = config.response_steering.0;
+        let contactor = k4_alone || k1_alone;
+        let steers = next.steers.reached(steering_outer);
+        let alone = gear_alone || contactor || next.loose || steers || inputs.foreign != Channels::NONE;
+        let seen = alone || inputs.second_sender;
+        let since = if seen { Timer::STOPPED.run(ticks.safety) } else { next.bypass };
+        let running = since.is_running() && !since.reached(config.bypass_hold);
+        let bypass = if seen || !running { since } else { since.run(ticks.safety) };
+        let next = Self { bypass, ..next };
+        let response = next.response(inputs, config);
+        let faults = response
+            .faults
+            .when(alone, Faults::BYPASS)
+            .when(inputs.second_sender, Faults::SECOND_SENDER)
+            .when(contactor, Faults::CONTACTOR);
+        (next, Response { bypass: running, faults, ..response })
+    }
+
+    /// RSP-1b, c, g, i, j, l: deceleration against the last output, while the bus rolls and ABS is not at work.
+    fn with_brake(self, inputs: &Inputs, elapsed: Millis, config: &Config) -> Self {
+        let speeds = (inputs.wheel_speed.known(), inputs.motor_speed.known());
+        let low = if let (Some(wheel), Some(motor)) = speeds { Some(wheel.min(motor)) } else { None };
+        let stands = low.is_some_and(|speed| speed < config.response_speed);
+        let compared = self.total >= config.response_decel && !stands && !inputs.abs.is(true);
+        let target = if compared { self.total.raw() } else { 0 };
+        let measured = inputs.deceleration.known().filter(|_| low.is_some()).map(DecelMs2Q11::raw);
+        let brake = self.brake.advance(target, measured, config.response_error.raw(), elapsed);
+        let most =
+            target.saturating_add(share(target, config.response_error)).saturating_add(config.response_drag.raw());
+        let over = compared && inputs.brake_switch.is(false) && measured.is_some_and(|measured| measured > most);
+        let brake_over = self.brake_over.run_while(over, elapsed);
+        let next = Self { brake, brake_over, ..self };
+        Self { short: self.short.run_while(next.falls_short(inputs, config), elapsed), ..next }
+    }
+
+    /// RSP-1g: the brakes have not followed in time; VLC-2f: or the limits of both parts do not reach the total.
+    fn falls_short(&self, inputs: &Inputs, config: &Config) -> bool {
+        let [ordinary, emergency, outer] = config.response_brake.0;
+        let electric = inputs.electric_limit.known().unwrap_or(DecelMs2Q11::ZERO);
+        let unable = inputs
+            .friction_limit
+            .known()
+            .is_some_and(|friction| friction.raw().saturating_add(electric.raw()) < self.total.raw());
+        self.brake.fails(if self.emergency { emergency } else { ordinary }, outer) || unable
+    }
+
+    /// RSP-1a, f, TRQ-7: executed torque against the last output.
+    fn with_drive(self, inputs: &Inputs, elapsed: Millis, config: &Config) -> Self {
+        let executed = percent(inputs.executed_torque);
+        // Below the idle torque the drive need not answer (S4 table 2); slip control may take torque away.
+        let compared = self.torque >= config.idle_torque && !inputs.asr.is(true);
+        let target = if compared { u16::from(self.torque.raw()) } else { 0 };
+        let measured = executed.map(|torque| u16::from(torque.raw()));
+        let drive = self.drive.advance(target, measured, config.response_error.raw(), elapsed);
+        let next = Self { drive, ..self };
+        let Some(measured) = measured else { return next };
+        // A torque that is let go takes its time: it is held against the greatest told since it was too much.
+        let told = if self.excess.is_running() { self.told.max(self.torque) } else { self.torque };
+        let base = if self.disobeys { 0 } else { u16::from(told.raw()) };
+        let most = base
+            .saturating_add(share(base, config.response_error))
+            .saturating_add(u16::from(config.torque_excess.raw()));
+        let excess = self.excess.run_while(measured > most, elapsed);
+        let disobeys = measured > most && (self.disobeys || excess.reached(config.response_drive));
+        Self { excess, told, disobeys, ..next }
+    }
+
+    /// RSP-1e, f: the measured angle against the last output, while automatic steering has its full weight.
+    fn with_steering(self, inputs: &Inputs, elapsed: Millis, config: &Config) -> Self {
+        if self.weight < Percent::FULL {
+            return Self { steering: SteeredAngle::INITIAL, ..self };
+        }
+        let band = config.response_angle.raw().unsigned_abs();
+        let band = band.saturating_add(share(self.angle.raw().unsigned_abs(), config.response_error));
+        let steering = self.steering.advance(self.angle, inputs.steering_angle.known(), band, elapsed);
+        Self { steering, ..self }
+    }
+
+    /// What was found.
+    fn response(&self, inputs: &Inputs, config: &Config) -> Response {
+        let short = self.falls_short(inputs, config);
+        let red = inputs.ebs_red.is(true);
+        // RSP-1m: EBS red calls the next means at once, and the one after it as soon as a shortfall is confirmed.
+        let brake = if short && (red || self.short.reached(config.response_retarder)) {
+            Deviation::Persistent
+        } else if short || red {
+            Deviation::Confirmed
+        } else {
+            Deviation::None
+        };
+        let persistent = Millis::new(config.response_drive.raw().saturating_mul(2));
+        let torque = match (self.disobeys, self.excess.reached(persistent)) {
+            (false, _) => Deviation::None,
+            (true, false) => Deviation::Confirmed,
+            (true, true) => Deviation::Persistent,
+        };
+        let [first, outer] = config.response_steering.0;
+        let steering = self.steering.fails(first, outer);
+        let faults = Faults::NONE
+            .when(short, Faults::BRAKE_RESPONSE)
+            .when(red, Faults::EBS_RED)
+            .when(self.brake_over.reached(config.response_overshoot), Faults::BRAKE_OVERSHOOT)
+            .when(self.drive.fails(config.response_drive, config.response_drive), Faults::DRIVE_RESPONSE)
+            .when(self.disobeys, Faults::EXCESS_TORQUE)
+            .when(self.gear.reached(config.response_gear), Faults::GEAR_RESPONSE)
+            .when(steering, Faults::STEERING_RESPONSE)
+            .when(self.steering.over.reached(config.response_overshoot), Faults::STEERING_OVERSHOOT);
+        Response { brake, torque, steering, parking: self.loose, bypass: false, faults }
+    }
+
+    /// After vetting: what went out. `total` is service brake and retarder together, `emergency` says level 3.
+    #[must_use]
+    pub fn record(self, outputs: &Outputs, total: DecelMs2Q11, emergency: bool) -> Self {
+        let gear = match outputs.gear {
+            GearRequest::Hold => None,
+            GearRequest::Drive => Some(Gear::Drive),
+            GearRequest::Reverse => Some(Gear::Reverse),
+            GearRequest::Neutral => Some(Gear::Neutral),
+            GearRequest::Park => Some(Gear::Park),
+        };
+        let epb = match outputs.epb.request {
+            EpbRequest::None => None,
+            EpbRequest::Apply => Some(EpbState::Applied),
+            EpbRequest::Release => Some(EpbState::Released),
+        };
+        let contact = |request| match request {
+            ContactorRequest::Hold => None,
+            ContactorRequest::Open => Some(Contact::Open),
+            ContactorRequest::Close => Some(Contact::Closed),
+        };
+        Self {
+            gearbox: self.gearbox.record(gear),
+            epb: self.epb.record(epb),
+            loose: self.loose && epb != Some(EpbState::Released),
+            k4: self.k4.record(contact(outputs.contactors.k4)),
+            k1: self.k1.record(contact(outputs.contactors.k1)),
+            total,
+            emergency,
+            torque: outputs.drive.torque,
+            angle: outputs.steering.angle,
+            weight: if outputs.steering.enable { outputs.steering.weight } else { Percent::ZERO },
+            ..self
+        }
+    }
+}
