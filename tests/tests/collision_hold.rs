@@ -280,8 +280,8 @@ fn in_automatic_steering_only_a_takeover_counts_as_steering() {
         let mut bus = Bus::steering(kmh(12));
         bus.ahead(object);
         assert_eq!(bus.step().status.level, level);
-        bus.inputs.steering_angle = known(angle(1_000));
-        assert_eq!(bus.run_for(200).status.level, level, "the angle of the machine is not the driver's");
+        bus.commands.steering = Command::Fresh(Steering { angle: angle(1_000), ..STEER });
+        assert_eq!(bus.run_for(500).status.level, level, "the angle of the machine is not the driver's");
         bus.inputs.driver_torque = known(hand_torque(7_000));
         let ended = bus.time_until(10, 2_000, |decision| decision.status.level == Level::None);
         assert!(matches!(ended, Some(290..=310)), "{ended:?}");

@@ -208,7 +208,7 @@ fn after_an_obligation_torque_rises_from_zero() {
 #[test]
 fn epbi_torque_below_idle_is_none() {
     for (torque, passes) in [(1, false), (5, false), (6, true), (7, true)] {
-        let mut bus = Bus::automated(FAST);
+        let mut bus = Bus::automated_by_epbi(FAST);
         bus.commands.drive =
             Command::Fresh(DriveTorque { torque: percent(torque), active: true, origin: Origin::Epbi });
         let decision = bus.run_for(1_000);
@@ -346,7 +346,7 @@ fn torque_needs_a_confirmed_driving_gear() {
         (unknown(Cause::NeverReceived), false),
     ] {
         let mut bus = Bus::driving(kmh(0));
-        bus.inputs.gear = gear;
+        bus.engage(gear);
         bus.accelerator(travel(50));
         bus.ask_torque(2);
         let decision = bus.step();

@@ -26,7 +26,8 @@ fn cruising(torque: u8) -> Bus {
 fn automated_torque_counts_only_with_its_active_flag() {
     for origin in [Origin::Adas, Origin::Epbi] {
         for active in [false, true] {
-            let mut bus = Bus::automated(FAST);
+            let by_epbi = origin == Origin::Epbi;
+            let mut bus = if by_epbi { Bus::automated_by_epbi(FAST) } else { Bus::automated(FAST) };
             bus.commands.drive = Command::Fresh(DriveTorque { torque: percent(10), active, origin });
             let decision = bus.run_for(1_000);
             assert_eq!(decision.outputs.drive.torque > Percent::ZERO, active, "{origin:?}");

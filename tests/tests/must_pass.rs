@@ -35,9 +35,9 @@ fn driver_torque_up_to_the_pedal_map_passes() {
     for gear in [Gear::Drive, Gear::Reverse] {
         for speed in [kmh(0), KMH_1_5, FAST] {
             for torque in 0..=100 {
-                let mut bus = Bus::driving(speed);
-                bus.inputs.gear = known(gear);
-                bus.inputs.selector = known(gear);
+                let mut bus = Bus::driving(kmh(0));
+                bus.engage(known(gear));
+                bus.speed(speed);
                 bus.accelerator(Pedal250::new(
                     u8::try_from(u16::from(torque) * 5 / 2 + u16::from(torque % 2)).unwrap_or(250),
                 ));

@@ -12,6 +12,10 @@ use proptest::prelude::{ProptestConfig, any, proptest};
 /// One event, and the cycles after it.
 fn event(bus: &mut Bus, seed: u64) {
     let mut dice = Dice(seed);
+    if let (Some(decision), false) = (bus.last, dice.one_in(8)) {
+        obey(&decision.outputs, &mut bus.inputs);
+    }
+    change_bus(&mut dice, &mut bus.inputs);
     for _ in 0..=dice.below(3) {
         change_input(&mut dice, &mut bus.inputs);
     }
@@ -136,7 +140,13 @@ proptest! {
         let but_for = [
             (Channel::Gear, vec![Reason::NeutralObliged]),
             (Channel::Contactors, vec![Reason::Shutdown]),
-            (Channel::ParkingBrake, vec![Reason::EpbApply, Reason::SafeState, Reason::DriverSwitch]),
+            (Channel::ParkingBrake, vec![
+                    Reason::EpbApply,
+                    Reason::SafeState,
+                    Reason::DriverSwitch,
+                    Reason::BrakeResponse,
+                    Reason::Bypass,
+                ]),
             (Channel::Mode, vec![]),
         ];
         for (channel, obligations) in but_for {

@@ -60,8 +60,10 @@ fn bus(situation: Situation) -> Bus {
         }
         OpeningK1 => {
             let mut bus = Bus::parked();
-            bus.inputs.k4 = OPEN;
             bus.loads_stopped();
+            bus.ask_contactors(ContactorRequest::Open, ContactorRequest::Hold);
+            bus.step();
+            bus.inputs.k4 = OPEN;
             bus.ask_contactors(ContactorRequest::Hold, ContactorRequest::Open);
             bus
         }
@@ -76,7 +78,8 @@ fn bus(situation: Situation) -> Bus {
             bus
         }
     };
-    bus.run_for(1_000);
+    // Short enough for what stands still here though it was told to move.
+    bus.run_for(500);
     bus
 }
 
@@ -210,6 +213,10 @@ fn table() -> Vec<Row> {
         Row("executed_torque", |bus, cause| bus.inputs.executed_torque = unknown(cause), &[(Standing, Channel::Contactors)]),
         Row("electric_limit", |bus, cause| bus.inputs.electric_limit = unknown(cause), ELECTRIC),
         Row("friction_limit", |bus, cause| bus.inputs.friction_limit = unknown(cause), &[]),
+        Row("electric_actual", |bus, cause| bus.inputs.electric_actual = unknown(cause), ELECTRIC),
+        Row("mass", |bus, cause| bus.inputs.mass = unknown(cause), ELECTRIC),
+        Row("axle_pressure", |bus, cause| bus.inputs.axle_pressure[0] = unknown(cause), ELECTRIC),
+        Row("axle_pressure", |bus, cause| bus.inputs.axle_pressure[1] = unknown(cause), ELECTRIC),
         Row("deceleration", |bus, cause| bus.inputs.deceleration = unknown(cause), &[]),
         Row("abs", |bus, cause| bus.inputs.abs = unknown(cause), ELECTRIC),
         Row("asr", |bus, cause| bus.inputs.asr = unknown(cause), ELECTRIC),

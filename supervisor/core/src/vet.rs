@@ -151,7 +151,7 @@ pub fn vet_retarder(envelope: &Envelope, most: Bound<Percent>, command: Command<
         Retarder { torque: most.most, mode: supervisor_terms::RetarderMode::Torque, priority: Priority::Highest };
     let out = if bound.retarder_obliged { obliged } else { Retarder { torque, ..wanted } };
     let helps = Verdict::below(Kind::Substitute, Reason::BrakeResponse, wanted.torque.wide(), most.most.wide());
-    let cause = if bound.retarder_obliged && out != wanted { Some(helps) } else { cause };
+    let cause = cause.or((out != wanted).then_some(helps));
     (out, judge(usable, &out, &Retarder::NEUTRAL, pass, cause))
 }
 

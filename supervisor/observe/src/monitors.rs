@@ -69,6 +69,11 @@ fn share(value: u16, percent: Percent) -> u16 {
     u16::try_from(u32::from(value).saturating_mul(u32::from(percent.raw())) / 100).unwrap_or(u16::MAX)
 }
 
+/// A time of S4's tables, with the dead time and the age of the feedback.
+fn allowed(time: Millis, config: &Config) -> Millis {
+    Millis::new(time.raw().saturating_add(config.response_age.raw()))
+}
+
 impl Monitors {
     /// Compares the feedback of this cycle with the last output.
     #[must_use]
@@ -77,6 +82,8 @@ impl Monitors {
         let (epb, epb_alone) = self.epb.advance(inputs.epb.known());
         let (k4, k4_alone) = self.k4.advance(inputs.k4.known());
         let (k1, k1_alone) = self.k1.advance(inputs.k1.known());
+        // A gearbox that falls to neutral by itself does not drive.
+        let gear_alone = gear_alone && matches!(inputs.gear.known(), Some(Gear::Drive | Gear::Reverse));
         let gear_waits = gearbox.asked.is_some() && inputs.gear.known().is_some() && gearbox.asked != gearbox.seen;
         let steers_alone = inputs.eps.is(EpsState::Active) && self.weight == Percent::ZERO;
         let next = Self {
@@ -94,6 +101,7 @@ impl Monitors {
         let next = next.with_steering(inputs, ticks.safety, config);
 
         let [_, steering_outer] = config.response_steering.0;
+        let steering_outer = allowed(steering_outer, config);
         let contactor = k4_alone || k1_alone;
         let steers = next.steers.reached(steering_outer);
         let alone = gear_alone || contactor || next.loose || steers || inputs.foreign != Channels::NONE;
@@ -136,7 +144,8 @@ impl Monitors {
             .friction_limit
             .known()
             .is_some_and(|friction| friction.raw().saturating_add(electric.raw()) < self.total.raw());
-        self.brake.fails(if self.emergency { emergency } else { ordinary }, outer) || unable
+        let inner = if self.emergency { emergency } else { ordinary };
+        self.brake.fails(allowed(inner, config), allowed(outer, config)) || unable
     }
 
     /// RSP-1a, f, TRQ-7: executed torque against the last output.
@@ -156,7 +165,7 @@ impl Monitors {
             .saturating_add(share(base, config.response_error))
             .saturating_add(u16::from(config.torque_excess.raw()));
         let excess = self.excess.run_while(measured > most, elapsed);
-        let disobeys = measured > most && (self.disobeys || excess.reached(config.response_drive));
+        let disobeys = measured > most && (self.disobeys || excess.reached(allowed(config.response_drive, config)));
         Self { excess, told, disobeys, ..next }
     }
 
@@ -183,21 +192,22 @@ impl Monitors {
         } else {
             Deviation::None
         };
-        let persistent = Millis::new(config.response_drive.raw().saturating_mul(2));
+        let drive = allowed(config.response_drive, config);
+        let persistent = Millis::new(drive.raw().saturating_add(config.response_drive.raw()));
         let torque = match (self.disobeys, self.excess.reached(persistent)) {
             (false, _) => Deviation::None,
             (true, false) => Deviation::Confirmed,
             (true, true) => Deviation::Persistent,
         };
         let [first, outer] = config.response_steering.0;
-        let steering = self.steering.fails(first, outer);
+        let steering = self.steering.fails(allowed(first, config), allowed(outer, config));
         let faults = Faults::NONE
             .when(short, Faults::BRAKE_RESPONSE)
             .when(red, Faults::EBS_RED)
             .when(self.brake_over.reached(config.response_overshoot), Faults::BRAKE_OVERSHOOT)
-            .when(self.drive.fails(config.response_drive, config.response_drive), Faults::DRIVE_RESPONSE)
+            .when(self.drive.fails(drive, drive), Faults::DRIVE_RESPONSE)
             .when(self.disobeys, Faults::EXCESS_TORQUE)
-            .when(self.gear.reached(config.response_gear), Faults::GEAR_RESPONSE)
+            .when(self.gear.reached(allowed(config.response_gear, config)), Faults::GEAR_RESPONSE)
             .when(steering, Faults::STEERING_RESPONSE)
             .when(self.steering.over.reached(config.response_overshoot), Faults::STEERING_OVERSHOOT);
         Response { brake, torque, steering, parking: self.loose, bypass: false, faults }

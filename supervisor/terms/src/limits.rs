@@ -313,8 +313,10 @@ limits! {
     response_retarder: Millis = [500], 100..=2000, "ms", "own", "EPB-1b";
     /// Gearbox.
     response_gear: Millis = [800], 200..=2000, "ms", "S4 6.1.6", "RSP-1d";
-    /// Steering: first response (100 ms inertia, 100 ms dead time and feedback), then the target.
-    response_steering: Row<Millis, 2> = [200, 500], 100..=2000, "ms", "S4 table 4, dead time own", "RSP-1e";
+    /// Steering: first response, and the target, from the command.
+    response_steering: Row<Millis, 2> = [100, 500], 50..=2000, "ms", "S4 table 4", "RSP-1e";
+    /// Dead time, and age of the feedback, that each of these is given on top.
+    response_age: Millis = [100], 0..=200, "ms", "own (feedback every 50 ms, link 10 ms, two cycles, rest)", "RSP-1f";
     /// Greatest steady-state error and overshoot.
     response_error: Percent = [15], 5..=50, "%", "S4 tables 2, 3, reading i", "RSP-1i";
     /// Overshoot and excess are reported after this long.

@@ -31,6 +31,9 @@ pub struct Bus {
     pub commands: Commands,
     /// What was decided last.
     pub last: Option<Decision>,
+    /// Steering and drive do what they are told; else they stay where the test puts them.
+    pub follows: bool,
+    drives: bool,
     sealed: Sealed,
     oracle: always::Oracle,
 }
@@ -55,6 +58,8 @@ impl Bus {
             sealed: *sealed,
             last: None,
             now: 1_000,
+            follows: true,
+            drives: false,
             inputs,
             scene: Scene::clear(),
             commands: Outputs::NEUTRAL.as_commands(),
@@ -82,7 +87,22 @@ impl Bus {
         self.now = self.now.wrapping_add(elapsed);
         let decision = self.supervisor.step(Millis::new(self.now), &self.inputs, &self.scene, &self.commands);
         self.last = Some(decision);
+        if self.follows {
+            self.follow(&decision.outputs);
+        }
         decision
+    }
+
+    /// Steering while it acts, and the drive while it drives, do as they are told.
+    fn follow(&mut self, outputs: &Outputs) {
+        if outputs.steering.enable && self.inputs.steering_angle.known().is_some() {
+            self.inputs.steering_angle = known(outputs.steering.angle);
+        }
+        let drives = outputs.drive.torque > Percent::ZERO;
+        if (drives || self.drives) && self.inputs.executed_torque.known().is_some() {
+            self.inputs.executed_torque = known(outputs.drive.torque);
+        }
+        self.drives = drives;
     }
 
     /// Steps of 10 ms for this long; the last decision.
@@ -209,6 +229,25 @@ impl Bus {
     pub fn brake_pedal(&mut self, travel: Pedal250) {
         self.inputs.brake_pedal = [known(travel); 2];
         self.inputs.brake_switch = known(travel > Pedal250::ZERO);
+    }
+
+    /// The gearbox takes a gear that selector and main controller ask for; anything else it is found in.
+    pub fn engage(&mut self, gear: Signal<Gear>) {
+        let request = match gear.known() {
+            Some(Gear::Drive) => GearRequest::Drive,
+            Some(Gear::Reverse) => GearRequest::Reverse,
+            Some(Gear::Neutral) => GearRequest::Neutral,
+            Some(Gear::Park) => GearRequest::Park,
+            None => GearRequest::Hold,
+        };
+        if gear.known().is_some() {
+            self.inputs.selector = gear;
+        }
+        let before = self.commands.gear;
+        self.ask_gear(request);
+        self.step();
+        self.commands.gear = before;
+        self.inputs.gear = gear;
     }
 
     /// Drive and auxiliaries confirmed stopped, no current.

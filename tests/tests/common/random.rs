@@ -274,6 +274,35 @@ pub fn change_scene(dice: &mut Dice, scene: &mut Scene) {
     }
 }
 
+/// Contactors and gearbox do as they were told.
+pub fn obey(outputs: &Outputs, inputs: &mut Inputs) {
+    for (request, contact) in [(outputs.contactors.k1, &mut inputs.k1), (outputs.contactors.k4, &mut inputs.k4)] {
+        match request {
+            ContactorRequest::Hold => {}
+            ContactorRequest::Open => *contact = OPEN,
+            ContactorRequest::Close => *contact = CLOSED,
+        }
+    }
+    match outputs.gear {
+        GearRequest::Hold => {}
+        GearRequest::Drive => inputs.gear = known(Gear::Drive),
+        GearRequest::Reverse => inputs.gear = known(Gear::Reverse),
+        GearRequest::Neutral => inputs.gear = known(Gear::Neutral),
+        GearRequest::Park => inputs.gear = known(Gear::Park),
+    }
+}
+
+/// What the bus shows beside our own frames, and what the brake system splits by.
+pub fn change_bus(dice: &mut Dice, inputs: &mut Inputs) {
+    inputs.foreign = if dice.one_in(20) { Channels::NONE.with(dice.of(Channel::ALL)) } else { Channels::NONE };
+    inputs.second_sender = dice.one_in(40);
+    if dice.one_in(10) {
+        inputs.mass = dice.maybe(|dice| Mass10Kg::new(dice.half()));
+        inputs.axle_pressure = [dice.maybe(|dice| Pressure5KPa::new(dice.byte())), inputs.axle_pressure[1]];
+        inputs.electric_actual = dice.maybe(|dice| DecelMs2Q11::new(dice.half()));
+    }
+}
+
 /// The time to the next cycle: mostly 10 ms, sometimes any legal one, seldom anything.
 pub fn cycle(dice: &mut Dice) -> u32 {
     match dice.below(40) {

@@ -12,13 +12,18 @@ impl Bus {
 
     /// Driver seated and confirmed, gear and selector D, parking brake released, at this speed.
     pub fn driving(speed: SpeedKmhQ8) -> Self {
+        Self::driving_with(&Config::DEFAULT, speed)
+    }
+
+    /// The same with another configuration.
+    pub fn driving_with(config: &Config, speed: SpeedKmhQ8) -> Self {
         let inputs = Inputs {
             gear: known(Gear::Drive),
             selector: known(Gear::Drive),
             epb: known(EpbState::Released),
             ..healthy()
         };
-        let mut bus = Self::boot(ResetCause::PowerOn, Some(Record::None), inputs);
+        let mut bus = Self::with_config(config, ResetCause::PowerOn, Some(Record::None), inputs);
         bus.speed(speed);
         bus.run_for(3_000);
         bus
@@ -26,7 +31,16 @@ impl Bus {
 
     /// [`driving`](Self::driving) in the automated mode, granted by cruise switch and set.
     pub fn automated(speed: SpeedKmhQ8) -> Self {
-        let mut bus = Self::driving(speed);
+        Self::automated_with(&Config::DEFAULT, speed)
+    }
+
+    /// The same on a bus whose brake system has the longitudinal control (EPBi-VLC).
+    pub fn automated_by_epbi(speed: SpeedKmhQ8) -> Self {
+        Self::automated_with(&Config { longitudinal_mode: Count::new(1), ..Config::DEFAULT }, speed)
+    }
+
+    fn automated_with(config: &Config, speed: SpeedKmhQ8) -> Self {
+        let mut bus = Self::driving_with(config, speed);
         bus.inputs.cruise_switch = known(true);
         bus.inputs.ads = known(AdsState::Ready);
         bus.step();
