@@ -187,6 +187,12 @@ lanes! {
         "executed_torque", "executed torque", number_text, input_tone, |c| known(c.inputs.executed_torque, |_| 0);
         "electric_limit", "electric brake limit", number_text, input_tone, |c| known(c.inputs.electric_limit, |_| 0);
         "friction_limit", "friction brake limit", number_text, input_tone, |c| known(c.inputs.friction_limit, |_| 0);
+        "electric_actual", "electric brake given", number_text, input_tone, |c| known(c.inputs.electric_actual, |_| 0);
+        "mass", "mass", number_text, input_tone, |c| known(c.inputs.mass, |_| 0);
+        "axle_pressure_front", "brake pressure, front axle", number_text, input_tone, |c| known(c.inputs.axle_pressure[0], |_| 0);
+        "axle_pressure_rear", "brake pressure, rear axle", number_text, input_tone, |c| known(c.inputs.axle_pressure[1], |_| 0);
+        "foreign", "somebody else commands", yes, state_tone, |c| u16::from(c.inputs.foreign != supervisor::Channels::NONE);
+        "second_sender", "second sender of our address", yes, state_tone, |c| u16::from(c.inputs.second_sender);
         "deceleration", "deceleration", number_text, input_tone, |c| known(c.inputs.deceleration, |_| 0);
         "abs", "ABS", yes, input_tone, |c| known(c.inputs.abs, u8::from);
         "asr", "ASR", yes, input_tone, |c| known(c.inputs.asr, u8::from);
