@@ -184,8 +184,9 @@ impl Monitors {
     fn response(&self, inputs: &Inputs, config: &Config) -> Response {
         let short = self.falls_short(inputs, config);
         let red = inputs.ebs_red.is(true);
-        // RSP-1m: EBS red calls the next means at once, and the one after it as soon as a shortfall is confirmed.
-        let brake = if short && (red || self.short.reached(config.response_retarder)) {
+        // RSP-1m: EBS red calls the next means at once, and the one after it as soon as a shortfall is confirmed; level 3
+        // has no time to try one after the other.
+        let brake = if short && (red || self.emergency || self.short.reached(config.response_retarder)) {
             Deviation::Persistent
         } else if short || red {
             Deviation::Confirmed
