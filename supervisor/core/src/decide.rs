@@ -143,6 +143,7 @@ fn envelope(
             hazard_flashers: seat.leave || must.safe_state,
             fault_lamp: faults.without(Faults::HINTS) != Faults::NONE,
             notice_lamp: next.steering.barred
+                || next.steering.astray
                 || next.steering.lost
                 || (steering.enable.is_err() && next.steering.acts())
                 || drive.notices(config),

@@ -5,6 +5,7 @@ use crate::envelope::Envelope;
 use crate::state::{State, StateImage};
 use crate::vet::vet;
 
+use supervisor_observe::Evidence;
 use supervisor_terms::{
     Checkpoint, Commands, Config, ExitReason, Faults, Flow, Inputs, Level, Millis, Mode, Occupancy, Outputs, Record,
     Sealed, Stage, Threat, Verdicts,
@@ -74,7 +75,7 @@ pub fn step(
     });
     let flow = flow.pass(Checkpoint::Configuration);
     let (_, ticks) = state.clock.advance(now, config);
-    let (monitors, response) = state.monitors.advance(inputs, ticks, config);
+    let (monitors, response) = state.monitors.advance(&Evidence::gather(inputs, config), inputs, ticks, config);
     let flow = flow.pass(Checkpoint::Observe);
     let decided = decide(&State { monitors, ..state }, now, inputs, threat, &response, config);
     let flow = flow.pass(Checkpoint::Decide);
