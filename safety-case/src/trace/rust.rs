@@ -1,0 +1,382 @@
+//! One Rust file: its items, its comments and literals, and which item each of them belongs to.
+//!
+//! syn finds the items; inside a macro such as `limits!` or `proptest!`, what stands behind an attribute or doc comment
+//! is an item. Comments are what lies between the tokens, so nothing in a string is taken for one.
+
+use std::ops::Range;
+
+use proc_macro2::{Delimiter, Span, TokenStream, TokenTree};
+use syn::spanned::Spanned;
+use syn::visit::{self, Visit};
+
+/// An item: function, type, field, variant, constant, module, or a documented part of a macro's input.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Item {
+    /// Its path in the file, as in `Parking::bound`.
+    pub name: String,
+    /// Line of its name, from 1.
+    pub line: usize,
+    /// A `#[test]` that is not ignored.
+    pub test: bool,
+    /// It, or what it stands in, is only compiled for tests.
+    pub for_tests: bool,
+    /// A function.
+    pub function: bool,
+    bytes: Range<usize>,
+    leaf: bool,
+}
+
+/// A comment or string literal and where it stands.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Passage {
+    /// Its words, without the comment signs; the lines of a block of line comments are one passage.
+    pub text: String,
+    /// Its first line, from 1.
+    pub line: usize,
+    /// What it is.
+    pub form: Form,
+    /// The item it belongs to, by its place in [`File::items`]; none for the head of the file.
+    pub item: Option<usize>,
+}
+
+/// What a passage is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Form {
+    /// A doc comment of an item.
+    Doc,
+    /// Any other comment.
+    Comment,
+    /// A string literal.
+    Literal,
+}
+
+/// A parsed file.
+#[derive(Debug, Default)]
+pub struct File {
+    /// Its items; what contains comes before what it contains.
+    pub items: Vec<Item>,
+    /// Its comments and string literals, in order.
+    pub passages: Vec<Passage>,
+}
+
+/// Reads a file.
+///
+/// # Errors
+/// It is no Rust.
+pub fn read(text: &str) -> Result<File, syn::Error> {
+    // syn drops it and byte ranges count from behind it.
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let tokens: TokenStream = text.parse()?;
+    let mut items = Items::default();
+    items.visit_file(&syn::parse2(tokens.clone())?);
+    let mut raw = Raw { text, past: 0, found: Vec::new() };
+    raw.stream(tokens);
+    raw.gap(text.len());
+    let passages = raw.found.into_iter().map(|found| {
+        let item = items.owner(text, &found);
+        let line = line_of(text, found.bytes.start);
+        Passage { text: found.words, line, form: found.form, item }
+    });
+    let passages = passages.collect();
+    Ok(File { items: items.found, passages })
+}
+
+fn line_of(text: &str, at: usize) -> usize {
+    text.get(..at).map_or(0, |before| before.matches('\n').count()) + 1
+}
+
+#[derive(Default)]
+struct Items {
+    found: Vec<Item>,
+    path: Vec<String>,
+    for_tests: bool,
+}
+
+fn marked(attributes: &[syn::Attribute], name: &str) -> bool {
+    attributes.iter().any(|attribute| attribute.path().is_ident(name))
+}
+
+fn only_for_tests(attributes: &[syn::Attribute]) -> bool {
+    attributes.iter().any(|attribute| {
+        attribute.path().is_ident("cfg")
+            && attribute.meta.require_list().is_ok_and(|list| list.tokens.to_string() == "test")
+    })
+}
+
+impl Items {
+    fn add(&mut self, name: &str, at: Span, bytes: Range<usize>, attributes: &[syn::Attribute], leaf: bool) -> bool {
+        let path: Vec<&str> = self.path.iter().map(String::as_str).chain([name]).collect();
+        let for_tests = self.for_tests || only_for_tests(attributes);
+        self.found.push(Item {
+            name: path.join("::"),
+            line: at.start().line,
+            test: marked(attributes, "test") && !marked(attributes, "ignore"),
+            for_tests,
+            function: false,
+            bytes,
+            leaf,
+        });
+        for_tests
+    }
+
+    fn inside(&mut self, name: &str, for_tests: bool, visit: impl FnOnce(&mut Self)) {
+        let before = std::mem::replace(&mut self.for_tests, for_tests);
+        self.path.push(name.to_owned());
+        visit(self);
+        self.path.pop();
+        self.for_tests = before;
+    }
+
+    fn function(&mut self) {
+        if let Some(item) = self.found.last_mut() {
+            item.function = true;
+        }
+    }
+
+    /// The innermost item around a passage; a line comment in front of an item, or behind it on its line, is that item's.
+    fn owner(&self, text: &str, found: &Found) -> Option<usize> {
+        let inner = (self.found.iter().enumerate())
+            .filter(|(_, item)| item.bytes.start <= found.bytes.start && found.bytes.end <= item.bytes.end)
+            .min_by_key(|(_, item)| item.bytes.len())
+            .map(|(index, _)| index);
+        let container = inner.and_then(|index| self.found.get(index));
+        if found.form == Form::Literal || found.sign.ends_with('!') || container.is_some_and(|item| item.leaf) {
+            return inner;
+        }
+        let within = container.map_or(0..text.len(), |item| item.bytes.clone());
+        let mut children = self.found.iter().enumerate().filter(|(index, item)| {
+            Some(*index) != inner && within.start <= item.bytes.start && item.bytes.end <= within.end
+        });
+        let beside = |end: usize| text.get(end..found.bytes.start).is_some_and(|gap| !gap.contains('\n'));
+        let neighbour = if found.trailing {
+            children.rfind(|(_, item)| item.bytes.end <= found.bytes.start && beside(item.bytes.end))
+        } else {
+            children.find(|(_, item)| item.bytes.start >= found.bytes.end)
+        };
+        neighbour.map(|(index, _)| index).or(inner)
+    }
+
+    /// The documented parts of a macro's input.
+    fn tokens(&mut self, stream: TokenStream) {
+        let trees: Vec<TokenTree> = stream.into_iter().collect();
+        let end = trees.last().map_or(0, |tree| tree.span().byte_range().end);
+        let is_attribute = |index: usize| {
+            matches!(trees.get(index), Some(TokenTree::Punct(sign)) if sign.as_char() == '#')
+                && matches!(trees.get(index + 1), Some(TokenTree::Group(group)) if group.delimiter() == Delimiter::Bracket)
+        };
+        let mut index = 0;
+        while let Some(tree) = trees.get(index) {
+            if !is_attribute(index) {
+                if let TokenTree::Group(group) = tree {
+                    self.tokens(group.stream());
+                }
+                index += 1;
+                continue;
+            }
+            let start = tree.span().byte_range().start;
+            let mut attributes = Vec::new();
+            while is_attribute(index) {
+                attributes.extend(trees.get(index + 1).map(ToString::to_string));
+                index += 2;
+            }
+            let mut function = false;
+            let name = loop {
+                match trees.get(index) {
+                    Some(TokenTree::Ident(ident)) if is_keyword(&ident.to_string()) => function |= ident == "fn",
+                    Some(TokenTree::Group(group)) if group.delimiter() == Delimiter::Parenthesis => (),
+                    Some(TokenTree::Ident(ident)) => break Some(ident),
+                    _ => break None,
+                }
+                index += 1;
+            };
+            let next = (index..trees.len()).find(|later| is_attribute(*later));
+            let stop = next.and_then(|next| trees.get(next)).map_or(end, |tree| tree.span().byte_range().start);
+            let Some(name) = name else { continue };
+            if function {
+                index = next.unwrap_or(trees.len());
+            }
+            let mark = |what: &str| attributes.iter().any(|attribute| attribute == what);
+            self.add(&name.to_string(), name.span(), start..stop, &[], function);
+            if let Some(item) = self.found.last_mut() {
+                item.function = function;
+                item.test = mark("[test]") && !mark("[ignore]");
+            }
+        }
+    }
+}
+
+fn is_keyword(word: &str) -> bool {
+    ["pub", "const", "unsafe", "async", "fn", "struct", "enum", "static", "type", "mod"].contains(&word)
+}
+
+/// Visits what has a name and attributes: adds it, then what stands inside.
+macro_rules! visit {
+    ($($method:ident: $type:ident, $leaf:literal, |$node:ident| $name:expr;)+) => { $(
+        fn $method(&mut self, $node: &'ast syn::$type) {
+            let (name, at): (String, Span) = $name;
+            let for_tests = self.add(&name, at, $node.span().byte_range(), &$node.attrs, $leaf);
+            self.inside(&name, for_tests, |items| visit::$method(items, $node));
+        }
+    )+ };
+}
+
+fn ident(ident: &syn::Ident) -> (String, Span) {
+    (ident.to_string(), ident.span())
+}
+
+/// The name of the type that is implemented.
+fn self_type(node: &syn::ItemImpl) -> (String, Span) {
+    let last = if let syn::Type::Path(path) = &*node.self_ty { path.path.segments.last() } else { None };
+    let name = last.map(|segment| segment.ident.to_string());
+    (name.unwrap_or_else(|| "impl".to_owned()), node.self_ty.span())
+}
+
+impl<'ast> Visit<'ast> for Items {
+    visit! {
+        visit_item_mod: ItemMod, false, |node| ident(&node.ident);
+        visit_item_impl: ItemImpl, false, |node| self_type(node);
+        visit_item_trait: ItemTrait, false, |node| ident(&node.ident);
+        visit_item_struct: ItemStruct, false, |node| ident(&node.ident);
+        visit_item_enum: ItemEnum, false, |node| ident(&node.ident);
+        visit_item_union: ItemUnion, false, |node| ident(&node.ident);
+        visit_item_type: ItemType, true, |node| ident(&node.ident);
+        visit_item_const: ItemConst, true, |node| ident(&node.ident);
+        visit_item_static: ItemStatic, true, |node| ident(&node.ident);
+        visit_impl_item_const: ImplItemConst, true, |node| ident(&node.ident);
+        visit_trait_item_const: TraitItemConst, true, |node| ident(&node.ident);
+        visit_variant: Variant, false, |node| ident(&node.ident);
+    }
+
+    fn visit_item_fn(&mut self, node: &'ast syn::ItemFn) {
+        self.add(&node.sig.ident.to_string(), node.sig.ident.span(), node.span().byte_range(), &node.attrs, true);
+        self.function();
+    }
+    fn visit_impl_item_fn(&mut self, node: &'ast syn::ImplItemFn) {
+        self.add(&node.sig.ident.to_string(), node.sig.ident.span(), node.span().byte_range(), &node.attrs, true);
+        self.function();
+    }
+    fn visit_trait_item_fn(&mut self, node: &'ast syn::TraitItemFn) {
+        self.add(&node.sig.ident.to_string(), node.sig.ident.span(), node.span().byte_range(), &node.attrs, true);
+        self.function();
+    }
+    fn visit_field(&mut self, node: &'ast syn::Field) {
+        let Some(name) = &node.ident else { return };
+        self.add(&name.to_string(), name.span(), node.span().byte_range(), &node.attrs, true);
+    }
+    fn visit_item_macro(&mut self, node: &'ast syn::ItemMacro) {
+        let rules = node.ident.as_ref().map(ident);
+        let name = rules.clone().or_else(|| node.mac.path.segments.last().map(|last| ident(&last.ident)));
+        let Some((name, at)) = name else { return };
+        let name = format!("{name}!");
+        let for_tests = self.add(&name, at, node.span().byte_range(), &node.attrs, rules.is_some());
+        if rules.is_none() {
+            self.inside(&name, for_tests, |items| items.tokens(node.mac.tokens.clone()));
+        }
+    }
+    fn visit_impl_item_macro(&mut self, node: &'ast syn::ImplItemMacro) {
+        self.tokens(node.mac.tokens.clone());
+    }
+}
+
+/// A comment or literal before it has found its item.
+struct Found {
+    words: String,
+    bytes: Range<usize>,
+    form: Form,
+    /// Code stands before it on its line.
+    trailing: bool,
+    /// How it begins: `//`, `///`, `//!`, ...
+    sign: &'static str,
+}
+
+/// Comments and string literals by their places.
+struct Raw<'a> {
+    text: &'a str,
+    past: usize,
+    found: Vec<Found>,
+}
+
+impl Raw<'_> {
+    fn stream(&mut self, stream: TokenStream) {
+        for tree in stream {
+            match &tree {
+                TokenTree::Group(group) => {
+                    let open = group.span_open().byte_range();
+                    // A doc comment is `#[doc = ".."]` at the place of the comment, which has been taken with its `#`.
+                    if open.start < self.past && group.span().byte_range().end <= self.past {
+                        continue;
+                    }
+                    self.gap(open.start);
+                    self.past = self.past.max(open.end);
+                    self.stream(group.stream());
+                    let close = group.span_close().byte_range();
+                    self.gap(close.start);
+                    self.past = self.past.max(close.end);
+                }
+                TokenTree::Ident(_) | TokenTree::Punct(_) | TokenTree::Literal(_) => self.leaf(&tree),
+            }
+        }
+    }
+
+    fn leaf(&mut self, tree: &TokenTree) {
+        let bytes = tree.span().byte_range();
+        if bytes.start < self.past {
+            return;
+        }
+        self.gap(bytes.start);
+        let source = self.text.get(bytes.clone()).unwrap_or_default();
+        if source.starts_with("//") || source.starts_with("/*") {
+            self.gap(bytes.end);
+        } else if let TokenTree::Literal(literal) = tree
+            && let syn::Lit::Str(text) = syn::Lit::new(literal.clone())
+        {
+            self.found.push(Found {
+                words: text.value(),
+                bytes: bytes.clone(),
+                form: Form::Literal,
+                trailing: true,
+                sign: "",
+            });
+        }
+        self.past = self.past.max(bytes.end);
+    }
+
+    /// The comments between the last token and the next one, or one doc comment.
+    fn gap(&mut self, end: usize) {
+        let mut at = self.past;
+        while let Some(begin) = self.text.get(at..end).and_then(|gap| gap.find('/')).map(|found| at + found) {
+            let rest = self.text.get(begin..end).unwrap_or_default();
+            let length = if rest.starts_with("//") {
+                rest.find('\n').unwrap_or(rest.len())
+            } else {
+                rest.find("*/").map_or(rest.len(), |found| found + 2)
+            };
+            self.comment(begin..begin + length.max(1));
+            at = begin + length.max(1);
+        }
+        self.past = self.past.max(end);
+    }
+
+    fn comment(&mut self, bytes: Range<usize>) {
+        let source = self.text.get(bytes.clone()).unwrap_or_default();
+        let signs = ["//!", "///", "//", "/*!", "/**", "/*"];
+        let sign = signs.into_iter().find(|sign| source.starts_with(sign)).unwrap_or_default();
+        let words = source.trim_start_matches(['/', '!', '*']).trim_end_matches("*/").trim().to_owned();
+        let line = self.text.get(..bytes.start).unwrap_or_default().rsplit('\n').next().unwrap_or_default();
+        let trailing = !line.trim().is_empty();
+        // Line comments of one kind, each alone on its line, one below the other, are one passage.
+        let gap = |last: &Found| self.text.get(last.bytes.end..bytes.start).unwrap_or("?");
+        if let Some(last) = self.found.last_mut()
+            && (last.sign, last.trailing, trailing) == (sign, false, false)
+            && gap(last).trim().is_empty()
+            && gap(last).matches('\n').count() == 1
+        {
+            last.words.push('\n');
+            last.words.push_str(&words);
+            last.bytes.end = bytes.end;
+            return;
+        }
+        let form = if matches!(sign, "///" | "/**") { Form::Doc } else { Form::Comment };
+        self.found.push(Found { words, bytes, form, trailing, sign });
+    }
+}
