@@ -67,7 +67,7 @@ Every requirement of safety-case/analysis has one id, SEAT-5a, and SEAT-5 is the
 these ids, and this command makes the table from them: requirement, code, limits, proofs, tests. Nothing is kept by hand.
 
 Where an id is a tag:
-  /// SEAT-5a: never ...        code: at the start of any comment of an item in supervisor,
+  /// SEAT-5a: never ...        code in supervisor: at the start of any comment of a function or constant,
   // SEAT-5a, b: ...            or alone in parentheses: (SEAT-5a, MIT-4)
   ..., \"own\", \"SEAT-5a\";     a row of limits!: the requirement column
   /// SEAT-5a: never ...        a property in proofs/src/properties; a harness names its demands in proofs/harnesses.toml

@@ -39,7 +39,7 @@ impl Supervisor {
         Self { image: StateImage::encode(&State::boot(cause, record)), sealed }
     }
 
-    /// One cycle, every 10 ms: perceive, decide, vet.
+    /// RXN-1a: one cycle, every 10 ms: perceive, decide, vet.
     ///
     /// `now` is in milliseconds and may wrap. Total: any values give a decision.
     #[must_use]

@@ -4,15 +4,16 @@
 //!
 //! | where | a tag is | names |
 //! |---|---|---|
-//! | code of `supervisor` | an id at the start of any comment of an item, or alone in parentheses: `(MIT-4, SEAT-5a)` | demands or a group |
+//! | functions and constants of `supervisor` | an id at the start of any of their comments, or alone in parentheses: `(MIT-4, SEAT-5a)` | demands or a group |
 //! | rows of `limits!` | the requirement column | a demand |
 //! | functions of `proofs/src/properties` | ids at the start of the doc comment | demands |
 //! | `proofs/harnesses.toml` | `requirements` | demands |
 //! | tests, everywhere | ids at the start of the doc comment: `MIT-4d: ...` | demands |
 //! | steps of `.ci/run` | ids at the start of a comment below `step "..."` | demands |
 //!
-//! Lists and ranges are read: `MIT-4a to MIT-4d`, `MIT-4a, b`. An id anywhere else (in a sentence, at the head of a
-//! file, in a message of an assertion) is a mention: it must name something that exists, and counts for nothing.
+//! Each paragraph of a comment may begin with tags. Lists and ranges are read: `MIT-4a to MIT-4d`, `MIT-4a, b`. An id
+//! anywhere else (in a sentence, at the head of a file, at a type, field or variant, in a message of an assertion) is a
+//! mention: it must name something that exists, and counts for nothing.
 //!
 //! A group in code (`MIT-4`) stands for each of its demands as long as *no* code names a demand of that group. As soon as
 //! one is named, all have to be: the group then counts for none. So a table can become finer, never coarser.

@@ -22,6 +22,8 @@ pub struct Item {
     pub for_tests: bool,
     /// A function.
     pub function: bool,
+    /// A constant or static.
+    pub constant: bool,
     bytes: Range<usize>,
     leaf: bool,
 }
@@ -113,6 +115,7 @@ impl Items {
             test: marked(attributes, "test") && !marked(attributes, "ignore"),
             for_tests,
             function: false,
+            constant: false,
             bytes,
             leaf,
         });
@@ -215,6 +218,8 @@ macro_rules! visit {
         fn $method(&mut self, $node: &'ast syn::$type) {
             let (name, at): (String, Span) = $name;
             let for_tests = self.add(&name, at, $node.span().byte_range(), &$node.attrs, $leaf);
+            // What is visited here and holds no items is a constant.
+            self.found.iter_mut().last().into_iter().for_each(|item| item.constant = $leaf);
             self.inside(&name, for_tests, |items| visit::$method(items, $node));
         }
     )+ };
@@ -239,7 +244,7 @@ impl<'ast> Visit<'ast> for Items {
         visit_item_struct: ItemStruct, false, |node| ident(&node.ident);
         visit_item_enum: ItemEnum, false, |node| ident(&node.ident);
         visit_item_union: ItemUnion, false, |node| ident(&node.ident);
-        visit_item_type: ItemType, true, |node| ident(&node.ident);
+        visit_item_type: ItemType, false, |node| ident(&node.ident);
         visit_item_const: ItemConst, true, |node| ident(&node.ident);
         visit_item_static: ItemStatic, true, |node| ident(&node.ident);
         visit_impl_item_const: ImplItemConst, true, |node| ident(&node.ident);

@@ -221,9 +221,21 @@ impl Scan {
     }
 }
 
+/// The ids that the paragraphs of a comment begin with.
+fn heads(text: &str) -> Listed {
+    let mut all = Listed::default();
+    for listed in text.split("\n\n").map(head) {
+        all.ids.extend(listed.ids);
+        all.broken.extend(listed.broken);
+    }
+    all
+}
+
 /// The tags in a passage, and of what kind they are.
 ///
-/// In code a tag begins a comment or stands in parentheses; in tests and properties it begins the doc comment.
+/// In functions and constants of the code a tag begins a comment, or a paragraph of one, or stands in parentheses; in
+/// tests and properties it begins the doc comment or a paragraph of it. Types, fields and variants declare and implement
+/// nothing: what they name is a mention.
 fn tags(role: Role, item: &Item, passage: &Passage) -> (Option<Kind>, Listed) {
     let nothing = (None, Listed::default());
     if passage.form == Form::Literal {
@@ -231,12 +243,12 @@ fn tags(role: Role, item: &Item, passage: &Passage) -> (Option<Kind>, Listed) {
         return id.map_or(nothing, |id| (Some(Kind::Limit), Listed { ids: vec![id], broken: Vec::new() }));
     }
     if item.test && passage.form == Form::Doc {
-        return (Some(Kind::Test), head(&passage.text));
+        return (Some(Kind::Test), heads(&passage.text));
     }
     match role {
-        Role::Properties if item.function && passage.form == Form::Doc => (Some(Kind::Property), head(&passage.text)),
-        Role::Shipped if !item.for_tests && !item.test && !item.name.starts_with("limits!") => {
-            let mut listed = head(&passage.text);
+        Role::Properties if item.function && passage.form == Form::Doc => (Some(Kind::Property), heads(&passage.text)),
+        Role::Shipped if (item.function || item.constant) && !item.for_tests && !item.test => {
+            let mut listed = heads(&passage.text);
             let inside = in_parentheses(&passage.text);
             listed.ids.extend(inside.ids.into_iter().filter(|id| !listed.ids.contains(id)).collect::<Vec<_>>());
             listed.broken.extend(inside.broken);

@@ -115,7 +115,7 @@ impl Brake {
             } else {
                 self.retarder
             },
-            // VLC-2: unknown limit, or slip control at work or unknown: no electric part; friction fills up.
+            // VLC-2b, c, d: unknown limit, or slip control at work or unknown: no electric part; friction fills up.
             electric: electric.unwrap_or(DecelMs2Q11::ZERO),
             retarder,
             retarder_decel: config.retarder_decel,
@@ -177,7 +177,7 @@ impl BrakeBound {
     }
 }
 
-/// What may be: PHB-1, TRQ-3, TRQ-4. Never below the floor, never below what the driver's pedal asks for.
+/// PHB-1, TRQ-3, TRQ-4, RULE-3b: what may be. Never below the floor, never below what the driver's pedal asks for.
 fn cap(situation: &Situation, floor: Bound<DecelMs2Q11>, evidence: &Evidence, config: &Config) -> Bound<DecelMs2Q11> {
     let threat = situation.threat;
     let danger = situation.mitigation.permitted || situation.mitigation.three;

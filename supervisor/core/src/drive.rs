@@ -193,7 +193,7 @@ impl Drive {
         refuse(!matches!(inputs.gear.known(), Some(Gear::Drive | Gear::Reverse)), Reason::GearDirection);
         // TRQ-5: electric limit; unknown ⇒ none.
         common.lower(percent(inputs.drive_limit).unwrap_or(Percent::ZERO), Reason::DriveLimit);
-        // RSP-1: slip control at work (or unknown): no rise.
+        // RSP-1n: slip control at work (or unknown): no rise.
         common.lower_if(!inputs.asr.is(false), self.torque, Reason::SlipControl);
 
         // TRQ-5: rises are limited, falls never.
@@ -225,7 +225,7 @@ impl Drive {
         TorqueBound { driver, automated, epbi, idle: config.idle_torque, hill_hold }
     }
 
-    /// TRQ-5: the last output plus what the gradient allows in this cycle.
+    /// TRQ-5, CMD-3f: the last output plus what the gradient allows in this cycle.
     fn ramped(&self, ramp: PercentPerS, elapsed: Millis) -> Percent {
         let (rise, _) = self.rest.portion(ramp.raw(), elapsed);
         Percent::new(self.torque.raw().saturating_add(u8::try_from(rise).unwrap_or(u8::MAX)).min(100))

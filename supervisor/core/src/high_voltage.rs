@@ -160,7 +160,7 @@ impl HighVoltage {
             held.and(permit!(!committed => Reason::Shutdown, (self.restart == Restart::Started) => Reason::NoRestart));
         let k1_close = closing.and(permit!(inputs.k4.is(Contact::Open) => Reason::K4NotOpen));
         let k4_close = closing.and(permit!(inputs.k1.is(Contact::Closed) => Reason::K1NotClosed));
-        // The guards stand inside the obligation (rule 4): guard lost ⇒ it waits.
+        // RULE-4b: the guards stand inside the obligation: guard lost ⇒ it waits.
         let k4 = ContactorBound {
             obliged: committed && inputs.epb.is(EpbState::Applied) && k4_open.is_ok(),
             open: k4_open,

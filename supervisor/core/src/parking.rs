@@ -121,7 +121,7 @@ impl Parking {
             !switch => Reason::DriverSwitch,
             (!self.by_leave || self.pedal == PedalChain::PressedAnew) => Reason::ParkedByLeave,
         );
-        // EPB-1: the driver's own switch goes first, either way.
+        // EPB-1a, d: the driver's own switch goes first, either way.
         let driver_releases = inputs.epb_switch.is(EpbSwitch::Release) && release.is_ok();
         let apply = permit!(
             (obliged.is_some() || slow) => Reason::EpbSpeed,

@@ -25,7 +25,7 @@ retained! {
 }
 
 impl SeatState {
-    /// *Confirmed occupied*, the evidence of every permission that needs a driver.
+    /// SEAT-0a: *confirmed occupied*, the evidence of every permission that needs a driver.
     #[must_use]
     pub const fn confirmed(&self, config: &Config) -> bool {
         self.occupied.reached(config.seat_confirm)
@@ -53,7 +53,7 @@ impl SeatState {
     }
 }
 
-/// *Not parked* = powered on and (EPB known not applied, or speed known ≥ 1.5 km/h).
+/// SEAT-0b: *not parked* = powered on and (EPB known not applied, or speed known ≥ 1.5 km/h).
 ///
 /// *Powered on* is read both ways of S3's 上电: the key is on, or the battery's main contactor is closed.
 fn not_parked(evidence: &Evidence, inputs: &Inputs, config: &Config) -> bool {

@@ -128,7 +128,7 @@ impl SteeringState {
         let limit = config.steering_angle.0.get(row).map_or(0, |angle| angle.raw());
         let rate = rate(evidence, config);
 
-        // STR-1: the window of speed and measured angle, then what the rate can reach of it: no jump, ever.
+        // STR-1, CMD-3f: the window of speed and measured angle, then what the rate can reach of it: no jump, ever.
         let measured = evidence.steering_angle.unwrap_or(self.angle).raw();
         let deviation = config.steering_deviation.raw().max(0);
         let window = |edge: i16| edge.max(limit.saturating_neg()).min(limit);
