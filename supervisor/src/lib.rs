@@ -48,7 +48,7 @@ impl Supervisor {
         step(&mut self.image, &self.sealed, now, inputs, &threat, commands)
     }
 
-    /// The configuration. One that has changed since it was checked leads to the safe state in
+    /// SELF-4e: the configuration, to be read only. One that has changed since it was checked leads to the safe state in
     /// [`step`](Self::step); the defaults stand in for it.
     #[must_use]
     pub fn config(&self) -> &Config {

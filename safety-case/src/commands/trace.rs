@@ -1,7 +1,7 @@
 //! `supervise trace`.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use super::{FINDINGS, Outcome, print};
 use crate::cli::TraceArgs;
@@ -41,6 +41,7 @@ fn text(trace: &Trace, arguments: &TraceArgs) -> Result<String, String> {
     Ok(text)
 }
 
-fn write(path: &PathBuf, text: &str) -> Result<(), String> {
-    fs::write(path, text).map_err(|error| format!("{}: {error}", path.display()))
+fn write(path: &Path, text: &str) -> Result<(), String> {
+    let folder = path.parent().map_or(Ok(()), fs::create_dir_all);
+    folder.and_then(|()| fs::write(path, text)).map_err(|error| format!("{}: {error}", path.display()))
 }

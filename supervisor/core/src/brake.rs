@@ -131,7 +131,7 @@ impl Brake {
         }
         floor.raise(self.leave, Reason::Leave);
         if situation.safe_state {
-            // SELF-5: a₀(v) if the seat is known vacant, 1.35 m/s² below 2 km/h.
+            // SELF-5d: a₀(v) if the seat is known vacant, 1.35 m/s² below 2 km/h.
             if evidence.seat == SeatView::Vacant {
                 let table = evidence.speed.map_or(config.leave_hold, |speed| leave_table(speed.low, config));
                 floor.raise(table, Reason::SafeState);
@@ -177,7 +177,7 @@ impl BrakeBound {
     }
 }
 
-/// PHB-1, TRQ-3, TRQ-4, RULE-3b: what may be. Never below the floor, never below what the driver's pedal asks for.
+/// PHB-1, MIT-6d, TRQ-3, TRQ-4, RULE-3b: what may be. Never below the floor, never below what the driver's pedal asks for.
 fn cap(situation: &Situation, floor: Bound<DecelMs2Q11>, evidence: &Evidence, config: &Config) -> Bound<DecelMs2Q11> {
     let threat = situation.threat;
     let danger = situation.mitigation.permitted || situation.mitigation.three;

@@ -83,6 +83,7 @@ fn envelope(
     let State { seat, parking, high_voltage, mitigation, drive, brake, .. } = next;
     let automated = drive.permission(must, threat, evidence, inputs);
     let situation = Situation { mitigation, threat, mode: drive.mode, safe_state: must.safe_state };
+    // SELF-5f: the contactors hold in the safe state.
     let held = permit!(!must.safe_state => Reason::SafeState);
     let (k4, k1) = high_voltage.bounds(evidence, inputs, held, config);
     let steering = next.steering.bound(drive.mode, must.safe_state, evidence, inputs, ticks, config);
@@ -101,6 +102,7 @@ fn envelope(
             forward_collision: mitigation.forward,
             pedestrian: mitigation.pedestrian,
             seat_leave: seat.leave,
+            // SELF-5h: and in the safe state.
             hazard_flashers: seat.leave || must.safe_state,
             fault_lamp: faults.without(Faults::HINTS) != Faults::NONE,
             notice_lamp: next.steering.barred
@@ -115,6 +117,7 @@ fn envelope(
     }
 }
 
+/// SEAT-10c: what is reported in this cycle, the seat sensors among it.
 fn faults(next: &State, threat: &Threat, evidence: &Evidence, ticks: Ticks, config: &Config) -> Faults {
     next.latched
         .when(ticks.fault, Faults::CLOCK)

@@ -180,6 +180,7 @@ impl Drive {
         config: &Config,
     ) -> TorqueBound {
         let mut common = Bound { most: Percent::FULL, reason: Reason::DriveLimit };
+        // SEAT-2a, MIT-5a, SELF-5c: no torque against an obligation.
         let mut refuse = |condition, reason| common.lower_if(condition, Percent::ZERO, reason);
         if let Some(reason) = must.reason() {
             refuse(true, reason);

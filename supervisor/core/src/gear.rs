@@ -50,7 +50,7 @@ impl GearState {
     ) -> GearBound {
         let confirmed = seat.confirmed(config);
         let parked = inputs.epb.is(EpbState::Applied);
-        // SEAT-6: a driving gear needs the driver, unless the bus is known to roll with the brake released.
+        // SELF-5f, SEAT-6: the gear holds in the safe state; a driving gear needs the driver, unless the bus is known to roll with the brake released.
         let rolling = evidence.surely_at_least(config.epb_speed) && inputs.epb.is(EpbState::Released);
         let gear = |selected: Gear, direction: Direction| -> Permission {
             let may_change = evidence.standstill || (evidence.speed.is_some() && self.direction == direction);

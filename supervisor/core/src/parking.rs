@@ -109,6 +109,7 @@ impl Parking {
         let obliged = if self.must_apply(seat, evidence, inputs, config) {
             Some(Reason::EpbApply)
         } else if safe_state && self.slow {
+            // SELF-5e: and release is refused below.
             Some(Reason::SafeState)
         } else {
             switch.then_some(Reason::DriverSwitch)

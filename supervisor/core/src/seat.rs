@@ -25,12 +25,13 @@ retained! {
 }
 
 impl SeatState {
-    /// SEAT-0a: *confirmed occupied*, the evidence of every permission that needs a driver.
+    /// SEAT-0a, SEAT-10b: *confirmed occupied*, the evidence of every permission that needs a driver.
     #[must_use]
     pub const fn confirmed(&self, config: &Config) -> bool {
         self.occupied.reached(config.seat_confirm)
     }
 
+    /// SEAT-10a: sensors that disagree or are unknown begin no leave and end none.
     pub(crate) fn advance(self, evidence: &Evidence, inputs: &Inputs, ticks: Ticks, config: &Config) -> Self {
         let occupied = self.occupied.run_while(evidence.seat == SeatView::Occupied, ticks.permission);
         let (vacant, unknown) = match evidence.seat {

@@ -66,7 +66,7 @@ impl State {
         }
     }
 
-    /// SELF-5: the state after retained words that did not decode: any other boot, in the safe state.
+    /// SELF-5b: the state after retained words that did not decode: any other boot, in the safe state.
     #[must_use]
     pub fn corrupted() -> Self {
         Self { latched: Faults::STATE, ..Self::boot(ResetCause::Other, None) }
@@ -84,7 +84,7 @@ impl State {
         }
     }
 
-    /// SELF-5: any latched fault is the safe state.
+    /// SELF-5b: any latched fault is the safe state.
     #[must_use]
     pub fn is_safe_state(&self) -> bool {
         self.latched != Faults::NONE
@@ -117,7 +117,7 @@ impl StateImage {
         image
     }
 
-    /// Whether every word and its complement agree.
+    /// SELF-5a: whether every word and its complement agree.
     #[must_use]
     pub fn intact(&self) -> bool {
         self.words.iter().zip(&self.complement).all(|(word, complement)| *word == !*complement)

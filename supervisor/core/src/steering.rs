@@ -110,6 +110,7 @@ impl SteeringState {
             speed.low >= config.steering_speed_least && speed.high <= config.steering_speed_greatest
         });
         let granted = self.acts() || mode != Mode::Manual;
+        // SELF-5g: not permitted means that it fades out.
         permit!(!safe_state => Reason::SafeState, !self.barred => Reason::Takeover, matches!(inputs.eps.known(), Some(EpsState::Ready | EpsState::Active)) => Reason::PowerSteering, (evidence.steering_angle.is_some() && inputs.driver_torque.known().is_some()) => Reason::SteeringRefused, in_range => Reason::SteeringSpeed, (granted && !inputs.cruise_switch.is(false)) => Reason::SteeringRefused)
     }
 

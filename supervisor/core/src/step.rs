@@ -48,10 +48,10 @@ pub struct Decision {
     pub status: Status,
 }
 
-/// One cycle: decode the state, decide, vet, put the state to rest.
+/// SELF-4f: one cycle, without a switch that leaves a part out: decode the state, decide, vet, put the state to rest.
 ///
 /// Total: any image, time, inputs, threat and commands give a decision (SELF-1). State that does not decode, or a
-/// configuration that has changed, is the safe state, latched (SELF-4, SELF-5).
+/// configuration that has changed, is the safe state, latched (SELF-4e, SELF-5b).
 #[must_use]
 pub fn step(
     image: &mut StateImage,

@@ -12,7 +12,7 @@ use supervisor_terms::{
     Reason, Retarder, ServiceBrake, SpeedKmhQ8, Steering, TorqueNmQ10, Verdict, Verdicts, Warnings,
 };
 
-/// SELF-2a, c, RULE-3a, RULE-3e, CMD-3a, b: vets every channel of one cycle.
+/// SELF-2a, c, RULE-3a, c, e, CMD-3a, b: vets every channel of one cycle.
 #[must_use]
 pub fn vet(envelope: &Envelope, commands: &Commands) -> (Outputs, Verdicts) {
     let mut out = Outputs::NEUTRAL;
