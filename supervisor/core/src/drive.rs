@@ -187,7 +187,7 @@ impl Drive {
         }
         refuse(self.release_needed, Reason::ReleaseNeeded);
         refuse(must.shutdown, Reason::Shutdown);
-        // SEAT-6: without a confirmed driver no torque when slow, parked, or neither known.
+        // SEAT-6b: without a confirmed driver no torque when slow, parked, or neither known.
         let moving = evidence.surely_at_least(config.epb_speed) && inputs.epb.is(EpbState::Released);
         refuse(!must.confirmed && !moving, Reason::SeatNotOccupied);
         // TRQ-6: only in a confirmed direction.

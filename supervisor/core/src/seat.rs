@@ -45,6 +45,7 @@ impl SeatState {
             }
         };
         let next = Self { occupied, vacant, unknown, leave: self.leave };
+        // SEAT-9a, d: confirmed ends it; the next one begins like the first.
         let leave = if self.leave {
             !next.confirmed(config)
         } else {

@@ -59,7 +59,7 @@ fn judge<T: PartialEq>(
     }
 }
 
-/// GEAR-1, SEAT-6, SELF-11c.
+/// GEAR-1, SEAT-6a, SELF-11c.
 #[must_use]
 pub fn vet_gear(envelope: &Envelope, command: Command<GearRequest>) -> (GearRequest, Verdict) {
     let bound = &envelope.gear;
@@ -218,7 +218,7 @@ pub fn vet_target_speed(envelope: &Envelope, mode: DrivingMode, command: Command
     (out, judge(usable, &out, &SpeedKmhQ8::ZERO, pass, cause))
 }
 
-/// SEAT-4, SEAT-5, SELF-11d: a refused release becomes *none*.
+/// SEAT-4a, SEAT-5e, SELF-11d: a refused release becomes *none*.
 #[must_use]
 pub fn vet_epb(envelope: &Envelope, command: Command<ParkingBrake>) -> (ParkingBrake, Verdict) {
     let bound = &envelope.epb;
@@ -312,7 +312,7 @@ pub fn vet_steering(envelope: &Envelope, command: Command<Steering>) -> (Steerin
     (out, judge(usable, &out, &Steering::NEUTRAL, pass, cause))
 }
 
-/// SEAT-7, SEAT-8, HV-1, SELF-11h: each contactor against its bound; K4 opens only beside a drive torque of 0.
+/// SEAT-7f, SEAT-8c, HV-1c, SELF-11h: each contactor against its bound; K4 opens only beside a drive torque of 0.
 #[must_use]
 pub fn vet_contactors(envelope: &Envelope, torque: Percent, command: Command<Contactors>) -> (Contactors, Verdict) {
     let usable = command.usable(envelope.timeouts.ms100);
