@@ -102,7 +102,8 @@ pub fn in_parentheses(comment: &str) -> Listed {
     listed
 }
 
-/// Reads "SEAT-5a, SEAT-5b", "SEAT-5a to SEAT-5d", "SEAT-5a to d", "SEAT-5a, b", "SEAT-5a/b"; says whether it begins with an id.
+/// Reads "SEAT-5a, SEAT-5b", "SEAT-5a to SEAT-5d", "SEAT-5a to d", "SEAT-5a, b", "SEAT-5a/b"; says whether it begins
+/// with an id.
 fn list(text: &str, into: &mut Listed) -> bool {
     let mut last = None;
     let mut begins = false;

@@ -14,7 +14,8 @@
 //!                       "tests": [ { PLACE } ], "checks": [ { PLACE } ], "planned_not_proved": false } ] }
 //! ```
 //!
-//! `PLACE` is `"file": "supervisor/core/src/parking.rs", "line": 61, "item": "Parking::next"`; files from the root of the project.
+//! `PLACE` is `"file": "supervisor/core/src/parking.rs", "line": 61, "item": "Parking::next"`; files
+//! from the root of the project.
 
 use serde_json::{Value, json as value};
 

@@ -4,7 +4,7 @@
 //!
 //! | where | a tag is | names |
 //! |---|---|---|
-//! | functions and constants of `supervisor` | an id at the start of any of their comments, or alone in parentheses: `(MIT-4, SEAT-5a)` | demands or a group |
+//! | functions and constants of `supervisor` | ids at the start of any comment in them, or alone in parentheses: `(MIT-4)` | demands, groups |
 //! | rows of `limits!` | the requirement column | a demand |
 //! | functions of `proofs/src/properties` | ids at the start of the doc comment | demands |
 //! | `proofs/harnesses.toml` | `requirements` | demands |
@@ -26,6 +26,7 @@ mod finding;
 mod id;
 mod json;
 mod page;
+mod passages;
 mod rust;
 mod scan;
 mod table;

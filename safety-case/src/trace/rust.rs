@@ -1,13 +1,15 @@
 //! One Rust file: its items, its comments and literals, and which item each of them belongs to.
 //!
 //! syn finds the items; inside a macro such as `limits!` or `proptest!`, what stands behind an attribute or doc comment
-//! is an item. Comments are what lies between the tokens, so nothing in a string is taken for one.
+//! is an item.
 
 use std::ops::Range;
 
 use proc_macro2::{Delimiter, Span, TokenStream, TokenTree};
 use syn::spanned::Spanned;
 use syn::visit::{self, Visit};
+
+use super::passages::{Found, passages};
 
 /// An item: function, type, field, variant, constant, module, or a documented part of a macro's input.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -71,10 +73,7 @@ pub fn read(text: &str) -> Result<File, syn::Error> {
     let tokens: TokenStream = text.parse()?;
     let mut items = Items::default();
     items.visit_file(&syn::parse2(tokens.clone())?);
-    let mut raw = Raw { text, past: 0, found: Vec::new() };
-    raw.stream(tokens);
-    raw.gap(text.len());
-    let passages = raw.found.into_iter().map(|found| {
+    let passages = passages(text, tokens).into_iter().map(|found| {
         let item = items.owner(text, &found);
         let line = line_of(text, found.bytes.start);
         Passage { text: found.words, line, form: found.form, item }
@@ -143,7 +142,7 @@ impl Items {
             .min_by_key(|(_, item)| item.bytes.len())
             .map(|(index, _)| index);
         let container = inner.and_then(|index| self.found.get(index));
-        if found.form == Form::Literal || found.sign.ends_with('!') || container.is_some_and(|item| item.leaf) {
+        if found.form != Form::Comment || found.sign.ends_with('!') || container.is_some_and(|item| item.leaf) {
             return inner;
         }
         let within = container.map_or(0..text.len(), |item| item.bytes.clone());
@@ -283,105 +282,91 @@ impl<'ast> Visit<'ast> for Items {
     }
 }
 
-/// A comment or literal before it has found its item.
-struct Found {
-    words: String,
-    bytes: Range<usize>,
-    form: Form,
-    /// Code stands before it on its line.
-    trailing: bool,
-    /// How it begins: `//`, `///`, `//!`, ...
-    sign: &'static str,
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SOURCE: &str = r##"//! Head.
+/// Doc of
+/// two lines.
+#[derive(Debug)]
+pub struct Lamp {
+    /// Of a field.
+    on: bool, // behind it
+    off: bool,
 }
-
-/// Comments and string literals by their places.
-struct Raw<'a> {
-    text: &'a str,
-    past: usize,
-    found: Vec<Found>,
+// In front of the impl.
+impl Lamp {
+    /// Doc.
+    fn lit(&self) -> bool {
+        // Inside.
+        let text = "// no comment"; /* block */
+        text == r#"raw // "none""# && self.on / 2 > 1
+    }
+    // In front of a constant.
+    const MOST: u8 = 3;
 }
+table! {
+    /// A row.
+    most: u8 = [3], "BRK-1a";
+    /// Another.
+    #[test]
+    fn runs(x in 0..1) { /* in it */ }
+}
+#[cfg(test)]
+mod tests {
+    /// Checks.
+    #[test]
+    fn checks() {}
+    /// Sleeps.
+    #[test]
+    #[ignore = "slow"]
+    fn sleeps() {}
+}
+"##;
 
-impl Raw<'_> {
-    fn stream(&mut self, stream: TokenStream) {
-        for tree in stream {
-            match &tree {
-                TokenTree::Group(group) => {
-                    let open = group.span_open().byte_range();
-                    // A doc comment is `#[doc = ".."]` at the place of the comment, which has been taken with its `#`.
-                    if open.start < self.past && group.span().byte_range().end <= self.past {
-                        continue;
-                    }
-                    self.gap(open.start);
-                    self.past = self.past.max(open.end);
-                    self.stream(group.stream());
-                    let close = group.span_close().byte_range();
-                    self.gap(close.start);
-                    self.past = self.past.max(close.end);
-                }
-                TokenTree::Ident(_) | TokenTree::Punct(_) | TokenTree::Literal(_) => self.leaf(&tree),
-            }
-        }
+    #[test]
+    fn every_comment_belongs_to_its_item() -> Result<(), syn::Error> {
+        let file = read(SOURCE)?;
+        let name =
+            |passage: &Passage| passage.item.and_then(|index| file.items.get(index)).map_or("", |item| &item.name);
+        let found: Vec<(usize, &str, &str)> =
+            file.passages.iter().map(|passage| (passage.line, passage.text.as_str(), name(passage))).collect();
+        let expected = [
+            (1, "Head.", ""),
+            (2, "Doc of\ntwo lines.", "Lamp"),
+            (6, "Of a field.", "Lamp::on"),
+            (7, "behind it", "Lamp::on"),
+            (10, "In front of the impl.", "Lamp"),
+            (12, "Doc.", "Lamp::lit"),
+            (14, "Inside.", "Lamp::lit"),
+            (15, "// no comment", "Lamp::lit"),
+            (15, "block", "Lamp::lit"),
+            (16, "raw // \"none\"", "Lamp::lit"),
+            (18, "In front of a constant.", "Lamp::MOST"),
+            (22, "A row.", "table!::most"),
+            (23, "BRK-1a", "table!::most"),
+            (24, "Another.", "table!::runs"),
+            (26, "in it", "table!::runs"),
+            (30, "Checks.", "tests::checks"),
+            (33, "Sleeps.", "tests::sleeps"),
+            (35, "slow", "tests::sleeps"),
+        ];
+        assert_eq!(found, expected);
+        Ok(())
     }
 
-    fn leaf(&mut self, tree: &TokenTree) {
-        let bytes = tree.span().byte_range();
-        if bytes.start < self.past {
-            return;
-        }
-        self.gap(bytes.start);
-        let source = self.text.get(bytes.clone()).unwrap_or_default();
-        if source.starts_with("//") || source.starts_with("/*") {
-            self.gap(bytes.end);
-        } else if let TokenTree::Literal(literal) = tree
-            && let syn::Lit::Str(text) = syn::Lit::new(literal.clone())
-        {
-            self.found.push(Found {
-                words: text.value(),
-                bytes: bytes.clone(),
-                form: Form::Literal,
-                trailing: true,
-                sign: "",
-            });
-        }
-        self.past = self.past.max(bytes.end);
-    }
-
-    /// The comments between the last token and the next one, or one doc comment.
-    fn gap(&mut self, end: usize) {
-        let mut at = self.past;
-        while let Some(begin) = self.text.get(at..end).and_then(|gap| gap.find('/')).map(|found| at + found) {
-            let rest = self.text.get(begin..end).unwrap_or_default();
-            let length = if rest.starts_with("//") {
-                rest.find('\n').unwrap_or(rest.len())
-            } else {
-                rest.find("*/").map_or(rest.len(), |found| found + 2)
-            };
-            self.comment(begin..begin + length.max(1));
-            at = begin + length.max(1);
-        }
-        self.past = self.past.max(end);
-    }
-
-    fn comment(&mut self, bytes: Range<usize>) {
-        let source = self.text.get(bytes.clone()).unwrap_or_default();
-        let signs = ["//!", "///", "//", "/*!", "/**", "/*"];
-        let sign = signs.into_iter().find(|sign| source.starts_with(sign)).unwrap_or_default();
-        let words = source.trim_start_matches(['/', '!', '*']).trim_end_matches("*/").trim().to_owned();
-        let line = self.text.get(..bytes.start).unwrap_or_default().rsplit('\n').next().unwrap_or_default();
-        let trailing = !line.trim().is_empty();
-        // Line comments of one kind, each alone on its line, one below the other, are one passage.
-        let gap = |last: &Found| self.text.get(last.bytes.end..bytes.start).unwrap_or("?");
-        if let Some(last) = self.found.last_mut()
-            && (last.sign, last.trailing, trailing) == (sign, false, false)
-            && gap(last).trim().is_empty()
-            && gap(last).matches('\n').count() == 1
-        {
-            last.words.push('\n');
-            last.words.push_str(&words);
-            last.bytes.end = bytes.end;
-            return;
-        }
-        let form = if matches!(sign, "///" | "/**") { Form::Doc } else { Form::Comment };
-        self.found.push(Found { words, bytes, form, trailing, sign });
+    #[test]
+    fn items_know_what_they_are() -> Result<(), syn::Error> {
+        let file = read(SOURCE)?;
+        let which = |of: fn(&Item) -> bool| -> Vec<&str> {
+            file.items.iter().filter(|item| of(item)).map(|item| item.name.as_str()).collect()
+        };
+        assert_eq!(which(|item| item.test), ["table!::runs", "tests::checks"]);
+        assert_eq!(which(|item| item.constant), ["Lamp::MOST"]);
+        assert_eq!(which(|item| item.function), ["Lamp::lit", "table!::runs", "tests::checks", "tests::sleeps"]);
+        assert_eq!(which(|item| item.for_tests), ["tests", "tests::checks", "tests::sleeps"]);
+        assert!(read("fn {").is_err());
+        Ok(())
     }
 }
