@@ -301,7 +301,7 @@ impl Lamp {
     fn lit(&self) -> bool {
         // Inside.
         let text = "// no comment"; /* block */
-        text == r#"raw // "none""# && self.on / 2 > 1
+        text == r#"raw // "none" "# && self.on / 2 > 1
     }
     // In front of a constant.
     const MOST: u8 = 3;
@@ -342,7 +342,7 @@ mod tests {
             (14, "Inside.", "Lamp::lit"),
             (15, "// no comment", "Lamp::lit"),
             (15, "block", "Lamp::lit"),
-            (16, "raw // \"none\"", "Lamp::lit"),
+            (16, "raw // \"none\" ", "Lamp::lit"),
             (18, "In front of a constant.", "Lamp::MOST"),
             (22, "A row.", "table!::most"),
             (23, "BRK-1a", "table!::most"),
