@@ -122,6 +122,7 @@ impl SteeringState {
             speed.low >= config.steering_speed_least && speed.high <= config.steering_speed_greatest
         });
         let granted = self.acts() || mode != Mode::Manual;
+        // SELF-5g: not permitted means that it fades out.
         permit!(!safe_state => Reason::SafeState, !self.barred => Reason::Takeover, !self.astray => Reason::SteeringResponse, matches!(inputs.eps.known(), Some(EpsState::Ready | EpsState::Active)) => Reason::PowerSteering, (evidence.steering_angle.is_some() && inputs.driver_torque.known().is_some()) => Reason::SteeringRefused, in_range => Reason::SteeringSpeed, (granted && !inputs.cruise_switch.is(false)) => Reason::SteeringRefused)
     }
 
@@ -140,7 +141,7 @@ impl SteeringState {
         let limit = config.steering_angle.0.get(row).map_or(0, |angle| angle.raw());
         let rate = rate(evidence, config);
 
-        // STR-1: the window of speed and measured angle, then what the rate can reach of it: no jump, ever.
+        // STR-1, CMD-3f: the window of speed and measured angle, then what the rate can reach of it: no jump, ever.
         let measured = evidence.steering_angle.unwrap_or(self.angle).raw();
         let deviation = config.steering_deviation.raw().max(0);
         let window = |edge: i16| edge.max(limit.saturating_neg()).min(limit);

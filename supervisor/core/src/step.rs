@@ -51,12 +51,12 @@ pub struct Decision {
     pub flow: Flow,
 }
 
-/// One cycle: decode the state, observe the actuators, decide, vet, put the state to rest.
+/// SELF-4f: one cycle, without a switch that leaves a part out: decode the state, observe the actuators, decide, vet, put the state to rest.
 ///
 /// `flow` has passed what ran before, [`Flow::PERCEIVED`] where perception did or was not needed (SELF-6).
 ///
 /// Total: any image, time, inputs, threat and commands give a decision (SELF-1). State that does not decode, or a
-/// configuration that has changed, is the safe state, latched (SELF-4, SELF-5).
+/// configuration that has changed, is the safe state, latched (SELF-4e, SELF-5b).
 #[must_use]
 pub fn step(
     image: &mut StateImage,

@@ -21,7 +21,7 @@ impl FaultReport {
         Self { debounce, lasted: [Millis::ZERO; BITS], occurrences: [0; BITS], active: Faults::NONE }
     }
 
-    /// Takes the faults of a cycle that lasted `elapsed`.
+    /// RULE-5b: takes the faults of a cycle that lasted `elapsed`.
     pub fn observe(&mut self, elapsed: Millis, decision: &Decision) {
         for (index, (fault, _)) in Faults::NAMES.iter().enumerate() {
             let (Some(lasted), Some(count)) = (self.lasted.get_mut(index), self.occurrences.get_mut(index)) else {
@@ -67,7 +67,7 @@ mod tests {
         Ok(step(image, &sealed, Flow::PERCEIVED, Millis::new(now), &Inputs::NEVER, &Threat::UNKNOWN, &Commands::ABSENT))
     }
 
-    /// RPT-1: a fault is reported only after it has lasted, and counted once.
+    /// RULE-5b: a fault is reported only after it has lasted, and counted once.
     #[test]
     fn a_fault_is_reported_after_the_debounce_and_counted_once() -> Result<(), ConfigError> {
         let mut image = StateImage::encode(&State::boot(ResetCause::PowerOn, Some(Record::None)));
