@@ -1,13 +1,36 @@
 //! Diagnosis: what happened, for people and records. It reads decisions and cannot influence them.
 //!
-//! [`EventRecord`] keeps the last changes of every verdict and of the status in a bounded ring.
-//! [`FaultReport`] debounces the faults: a frame that fails its check is disobeyed at once, only its *report* waits.
+//! - [`EventRecord`] keeps the last changes of every verdict and of the status in a bounded ring, and for those that
+//!   matter a [`Snapshot`] of their surroundings.
+//! - [`TROUBLE_CODES`] says of every fault what does not work and why: SPN, FMI, lamp, what driver and ADS are told.
+//! - [`FaultReport`] debounces the faults: a frame that fails its check is disobeyed at once, only its *report* waits.
+//! - [`BodyMonitor`] finds lamps and wipers that do not follow; that is reported, and nothing more (RSP-1h).
+//! - [`Dm1Sender`] puts what is active on the bus as J1939 DM1.
+//! - [`exit_notice`] says why the automated mode ended.
 #![no_std]
 #![forbid(unsafe_code)]
 #![deny(clippy::arithmetic_side_effects, clippy::float_arithmetic, clippy::indexing_slicing, clippy::unreachable)]
 
+#[cfg(kani)]
+extern crate kani;
+
+mod body;
+mod clock;
+mod code;
+mod dm1;
 mod event;
 mod fault;
+mod notice;
+mod ring;
+mod sender;
+mod snapshot;
+mod table;
 
+pub use body::{BodyFaults, BodyFeedback, BodyMonitor, BodyPart, FOLLOW};
+pub use code::{Fmi, Lamp, Source, Spn, System, TroubleCode};
 pub use event::{Event, EventRecord, What};
-pub use fault::FaultReport;
+pub use fault::{DEBOUNCE, FaultReport, HEAL, Lamps, Trouble};
+pub use notice::{ExitNotice, exit_notice};
+pub use sender::{Dm1Sender, J1939Frame, PERIOD, SPACING};
+pub use snapshot::{Bounds, Snapshot};
+pub use table::{OWN_SPN, TROUBLE_CODES};
