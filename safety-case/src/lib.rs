@@ -28,4 +28,5 @@ pub mod runs;
 pub mod stretches;
 pub mod summary;
 pub mod timeline;
+pub mod troubles;
 pub mod words;

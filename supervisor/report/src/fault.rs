@@ -7,6 +7,9 @@ use crate::clock::Clock;
 use crate::code::{Lamp, Source, TroubleCode};
 use crate::table::{CODES, TROUBLE_CODES};
 
+/// After power-on no debounce begins before this (own). Every link first has to be heard and to requalify; without the
+/// wait each start of the bus would leave a code for every input. The fault lamp, which the core lights, does not wait.
+pub const SETTLE: Millis = Millis::new(3000);
 /// A fault is reported once it has lasted this long (own, TM-80). Only the report waits; the reaction never does.
 pub const DEBOUNCE: Millis = Millis::new(500);
 /// A code is active until its fault has stayed away for this long (own, TM-81): one loose contact is one occurrence.
@@ -46,6 +49,8 @@ pub struct Trouble {
     pub code: &'static TroubleCode,
     /// How often it has become active: 1 to 126, saturating.
     pub occurrences: u8,
+    /// The fault is there in this cycle; an active code without it waits to heal.
+    pub present: bool,
 }
 
 /// The lamps of DM1 that the active codes light together.
@@ -64,6 +69,9 @@ pub struct Lamps {
 #[derive(Clone, Copy, Debug)]
 pub struct FaultReport {
     clock: Clock,
+    /// Since power-on.
+    up: Timer,
+    settle: Millis,
     debounce: Millis,
     heal: Millis,
     /// In the order of the table.
@@ -72,27 +80,30 @@ pub struct FaultReport {
 
 impl Default for FaultReport {
     fn default() -> Self {
-        Self::new(DEBOUNCE, HEAL)
+        Self::new(SETTLE, DEBOUNCE, HEAL)
     }
 }
 
 impl FaultReport {
-    /// Reports what has lasted for at least `debounce`, until it has been away for at least `heal`.
+    /// Reports what has lasted for at least `debounce`, until it has been away for at least `heal`. Whatever is there
+    /// in the first `settle` begins to last after it.
     #[must_use]
-    pub const fn new(debounce: Millis, heal: Millis) -> Self {
-        Self { clock: Clock::NEW, debounce, heal, entries: [Entry::NEW; CODES] }
+    pub const fn new(settle: Millis, debounce: Millis, heal: Millis) -> Self {
+        Self { clock: Clock::NEW, up: Timer::STOPPED, settle, debounce, heal, entries: [Entry::NEW; CODES] }
     }
 
     /// Takes a cycle. `body` comes from [`BodyMonitor`](crate::BodyMonitor), or is [`BodyFaults::NONE`]; it has lasted
     /// its second already and is not debounced again.
     pub fn observe(&mut self, now: Millis, decision: &Decision, body: BodyFaults) {
         let elapsed = self.clock.elapsed(now);
+        self.up = self.up.run(elapsed);
+        let settled = self.up.reached(self.settle);
         for (entry, code) in self.entries.iter_mut().zip(TROUBLE_CODES) {
             let (present, debounce) = match code.source {
                 Source::Core(fault) => (decision.status.faults.contains(fault), self.debounce),
                 Source::Body(part) => (body.contains(part), Millis::ZERO),
             };
-            entry.observe(present, debounce, self.heal, elapsed);
+            entry.observe(present && settled, debounce, self.heal, elapsed);
         }
     }
 
@@ -127,6 +138,11 @@ impl FaultReport {
 
     fn troubles(&self, which: fn(&Entry) -> bool) -> impl Iterator<Item = Trouble> {
         let entries = self.entries.iter().zip(TROUBLE_CODES).filter(move |(entry, _)| which(entry));
-        entries.map(|(entry, code)| Trouble { code, occurrences: entry.occurrences })
+        entries.map(|(entry, code)| Trouble {
+            code,
+            occurrences: entry.occurrences,
+            // The timer of an active code runs while its fault is away.
+            present: entry.active && !entry.timer.is_running(),
+        })
     }
 }

@@ -74,7 +74,7 @@ trouble_codes! {
     core STEERING_COMMAND_LOST: own(0x70), UpdateRate, AmberWarning, Steering,
         "Automatic steering ends: steer.", "The main controller's steering command is missing or damaged.";
     core ACCELERATOR_UNKNOWN: standard(91), Erratic, AmberWarning, Drive,
-        "The accelerator has no effect.", "The accelerator's two tracks disagree, or one is silent.";
+        "The accelerator has no effect; no automated mode.", "The accelerator's two tracks disagree, or one is silent.";
     core BRAKE_PEDAL_UNKNOWN: standard(521), Erratic, AmberWarning, Brake,
         "No drive, no automated mode.", "The brake pedal's position is uncertain.";
     core EBS_RED: standard(1439), ConditionExists, RedStop, Brake,

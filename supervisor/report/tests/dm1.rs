@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{Outcome, observe, quiet, with};
+use common::{Outcome, observe, quiet, settled, with};
 use proptest::prelude::*;
 use supervisor_core::{Decision, Faults, Millis};
 use supervisor_report::{BodyFaults, BodyPart, Dm1Sender, FaultReport, J1939Frame, TROUBLE_CODES};
@@ -102,7 +102,7 @@ struct Bus {
 
 impl Bus {
     fn new(begin: u32) -> Self {
-        let (report, sender) = (FaultReport::default(), Dm1Sender::new(SOURCE));
+        let (report, sender) = (settled(), Dm1Sender::new(SOURCE));
         Self { now: begin, report, sender, receiver: Receiver::default(), frames: Vec::new(), messages: Vec::new() }
     }
 
@@ -124,7 +124,7 @@ impl Bus {
 /// RPT-1c: one code, byte by byte by hand: SPN 84 (0x00054), FMI 2, count 1, amber lamp.
 #[test]
 fn one_code_is_one_frame_checked_by_hand() -> Outcome {
-    let mut report = FaultReport::default();
+    let mut report = settled();
     observe(&mut report, &with(&quiet()?, Faults::SPEED_UNKNOWN), 0, 600);
     let frame = Dm1Sender::new(0x2A).poll(Millis::new(600), &report);
     // Amber lamp 01 in bits 4, 3; no flash; SPN low, middle; SPN high 000 and FMI 00010; CM 0 and count 1; padding.
@@ -136,7 +136,7 @@ fn one_code_is_one_frame_checked_by_hand() -> Outcome {
 /// RPT-1c: two codes, every frame by hand: announced, 2 packets, the last padded; an SPN of all 19 bits.
 #[test]
 fn two_codes_are_a_broadcast_checked_by_hand() -> Outcome {
-    let mut report = FaultReport::default();
+    let mut report = settled();
     // STATE: SPN 516353 = 0x7E101, FMI 12, red. SPEED_UNKNOWN: SPN 84, FMI 2, amber.
     let decision = with(&quiet()?, Faults::SPEED_UNKNOWN.with(Faults::STATE));
     observe(&mut report, &decision, 0, 600);
@@ -214,7 +214,7 @@ fn a_session_is_of_one_moment() -> Result<(), Box<dyn std::error::Error>> {
 /// RPT-1c: the sender keeps its distance however wildly the clock leaps, and several polls at one time send one frame.
 #[test]
 fn no_two_frames_are_close_whatever_the_clock_does() -> Outcome {
-    let mut report = FaultReport::default();
+    let mut report = settled();
     observe(&mut report, &with(&quiet()?, Faults::CLOCK.with(Faults::STATE)), 0, 600);
     let mut sender = Dm1Sender::new(SOURCE);
     assert!(sender.poll(Millis::new(7), &report).is_some());

@@ -2,10 +2,10 @@
 
 mod common;
 
-use common::{Outcome, observe, quiet, with};
+use common::{Outcome, observe, quiet, settled, with};
 use proptest::prelude::*;
 use supervisor_core::{Decision, Faults, Millis};
-use supervisor_report::{BodyFaults, BodyPart, DEBOUNCE, FaultReport, HEAL, Lamps, Source};
+use supervisor_report::{BodyFaults, BodyPart, DEBOUNCE, FaultReport, HEAL, Lamps, SETTLE, Source};
 
 /// The only code that is active, and its count; `None` unless there is exactly one.
 fn only(report: &FaultReport) -> Option<(Faults, u8)> {
@@ -22,7 +22,7 @@ fn only(report: &FaultReport) -> Option<(Faults, u8)> {
 fn a_fault_is_reported_after_the_debounce() -> Outcome {
     assert_eq!(DEBOUNCE, Millis::new(500));
     let faulty = with(&quiet()?, Faults::SEAT_UNKNOWN);
-    let mut report = FaultReport::default();
+    let mut report = settled();
     observe(&mut report, &faulty, 0, 500);
     assert_eq!(report.faults(), Faults::NONE, "490 ms after the first sight");
     observe(&mut report, &faulty, 500, 510);
@@ -37,7 +37,7 @@ fn a_fault_is_reported_after_the_debounce() -> Outcome {
 fn a_flicker_is_not_reported() -> Outcome {
     let quiet = quiet()?;
     let faulty = with(&quiet, Faults::CLOCK);
-    let mut report = FaultReport::default();
+    let mut report = settled();
     for round in 0..100 {
         observe(&mut report, &faulty, round * 510, round * 510 + 500);
         observe(&mut report, &quiet, round * 510 + 500, round * 510 + 510);
@@ -52,7 +52,7 @@ fn a_code_heals_after_a_fault_free_time() -> Outcome {
     assert_eq!(HEAL, Millis::new(10_000));
     let quiet = quiet()?;
     let faulty = with(&quiet, Faults::EBS_RED);
-    let mut report = FaultReport::default();
+    let mut report = settled();
     observe(&mut report, &faulty, 0, 1000);
     observe(&mut report, &quiet, 1000, 11_000);
     assert_eq!(only(&report), Some((Faults::EBS_RED, 1)), "9.99 s after the first sight of its absence");
@@ -72,12 +72,44 @@ fn a_code_heals_after_a_fault_free_time() -> Outcome {
     Ok(())
 }
 
+/// RPT-1c: while the links start nothing is reported; what is still there when they have started, is.
+#[test]
+fn nothing_is_reported_while_the_links_start() -> Outcome {
+    let quiet = quiet()?;
+    let faulty = with(&quiet, Faults::SPEED_UNKNOWN);
+    let mut report = FaultReport::default();
+    observe(&mut report, &faulty, 0, 2500);
+    observe(&mut report, &quiet, 2500, 20_000);
+    assert_eq!((report.active().count(), report.previously_active().count()), (0, 0));
+    let mut report = FaultReport::default();
+    assert_eq!(SETTLE, Millis::new(3000));
+    observe(&mut report, &faulty, 0, 3500);
+    assert_eq!(report.active().count(), 0);
+    observe(&mut report, &faulty, 3500, 3510);
+    assert_eq!(only(&report), Some((Faults::SPEED_UNKNOWN, 1)));
+    Ok(())
+}
+
+/// RPT-1a: an active code says whether its fault is there or waits to heal.
+#[test]
+fn an_active_code_says_whether_its_fault_is_there() -> Outcome {
+    let quiet = quiet()?;
+    let mut report = settled();
+    observe(&mut report, &with(&quiet, Faults::SPEED_UNKNOWN), 0, 1000);
+    assert_eq!(report.active().map(|trouble| trouble.present).collect::<Vec<_>>(), [true]);
+    observe(&mut report, &quiet, 1000, 1010);
+    assert_eq!(report.active().map(|trouble| trouble.present).collect::<Vec<_>>(), [false]);
+    observe(&mut report, &quiet, 1010, 12_000);
+    assert_eq!(report.previously_active().map(|trouble| trouble.present).collect::<Vec<_>>(), [false]);
+    Ok(())
+}
+
 /// RPT-1c: the count stops at 126; 127 would say "not available".
 #[test]
 fn the_count_saturates_at_126() -> Outcome {
     let quiet = quiet()?;
     let faulty = with(&quiet, Faults::CLOCK);
-    let mut report = FaultReport::new(Millis::new(10), Millis::new(10));
+    let mut report = FaultReport::new(Millis::ZERO, Millis::new(10), Millis::new(10));
     for round in 0..300_u32 {
         observe(&mut report, &faulty, round * 40, round * 40 + 20);
         let expected = u8::try_from(round + 1).unwrap_or(u8::MAX).min(126);
@@ -93,7 +125,7 @@ fn the_count_saturates_at_126() -> Outcome {
 fn the_lamps_are_those_of_the_active_codes() -> Outcome {
     let quiet = quiet()?;
     let lamps = |faults: Faults| {
-        let mut report = FaultReport::default();
+        let mut report = settled();
         observe(&mut report, &with(&quiet, faults), 0, 600);
         (report.faults(), report.lamps())
     };
@@ -116,7 +148,7 @@ fn the_lamps_are_those_of_the_active_codes() -> Outcome {
 #[test]
 fn a_body_fault_is_reported_at_once_and_heals_like_any() -> Outcome {
     let quiet = quiet()?;
-    let mut report = FaultReport::default();
+    let mut report = settled();
     let dark = BodyFaults::NONE.when(true, BodyPart::BrakeLamps);
     report.observe(Millis::new(0), &quiet, dark);
     let names: Vec<_> = report.active().map(|trouble| trouble.code.name()).collect();
@@ -133,14 +165,14 @@ fn a_body_fault_is_reported_at_once_and_heals_like_any() -> Outcome {
 fn the_clock_may_wrap_and_leap() -> Outcome {
     let faulty = with(&quiet()?, Faults::CLOCK);
     for begin in [0, u32::MAX - 500, u32::MAX - 255, u32::MAX] {
-        let mut report = FaultReport::default();
+        let mut report = settled();
         for cycle in 0..=50_u32 {
             assert_eq!(report.active().count(), 0, "{begin} {cycle}");
             report.observe(Millis::new(begin.wrapping_add(cycle * 10)), &faulty, BodyFaults::NONE);
         }
         assert_eq!(only(&report), Some((Faults::CLOCK, 1)));
     }
-    let mut report = FaultReport::default();
+    let mut report = settled();
     for now in [0, 5_000_000, 3, u32::MAX, 77] {
         report.observe(Millis::new(now), &faulty, BodyFaults::NONE);
     }
@@ -178,7 +210,7 @@ proptest! {
     #[test]
     fn any_coming_and_going_is_reported_like_the_reference(present in runs(), begin: u32) {
         let quiet = quiet().map_err(|error| TestCaseError::fail(error.to_string()))?;
-        let mut report = FaultReport::default();
+        let mut report = settled();
         for (now, present) in present.iter().zip(0_u32..).map(|(present, cycle)| (cycle * 10, *present)) {
             report.observe(Millis::new(begin.wrapping_add(now)), &faulty_or_not(present, &quiet), BodyFaults::NONE);
         }

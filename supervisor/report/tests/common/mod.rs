@@ -5,7 +5,7 @@ use supervisor_core::{
     Commands, ConfigError, Decision, Faults, Inputs, Millis, Outputs, Record, ResetCause, Sealed, State, StateImage,
     Threat, step,
 };
-use supervisor_report::{BodyFaults, FaultReport};
+use supervisor_report::{BodyFaults, DEBOUNCE, FaultReport, HEAL};
 
 /// The outcome of a test.
 pub type Outcome = Result<(), ConfigError>;
@@ -24,6 +24,11 @@ pub fn with(decision: &Decision, faults: Faults) -> Decision {
     let mut decision = *decision;
     decision.status.faults = faults;
     decision
+}
+
+/// The shipped report, long after power-on.
+pub fn settled() -> FaultReport {
+    FaultReport::new(Millis::ZERO, DEBOUNCE, HEAL)
 }
 
 /// Observes a decision every 10 ms from `from` (included) to `to` (excluded).
