@@ -4,8 +4,8 @@ mod common;
 
 use common::{Outcome, quiet};
 use supervisor_core::{
-    Channel, Commands, ConfigError, DecelMs2Q11, Decision, Inputs, Key, Kind, Level, Millis, Occupancy, Reason, Record,
-    ResetCause, Sealed, Signal, State, StateImage, Threat, Verdict, Verdicts, step,
+    Bound, Channel, Commands, ConfigError, DecelMs2Q11, Decision, Inputs, Key, Kind, Level, Millis, Occupancy, Percent,
+    Reason, Record, ResetCause, Sealed, Signal, State, StateImage, Threat, Verdict, Verdicts, step,
 };
 use supervisor_report::{Event, EventRecord, Snapshot, What};
 
@@ -49,7 +49,11 @@ fn the_record_is_bounded_and_counts_what_it_drops() -> Outcome {
 /// RPT-1: a channel that stops passing is kept once with verdict, status, bounds and inputs; not while it goes on.
 #[test]
 fn the_first_verdict_that_is_no_pass_keeps_its_surroundings() -> Outcome {
-    let passing = passing()?;
+    let mut passing = passing()?;
+    // Bounds that differ, so that none can stand for another.
+    let bound = |most, reason| Bound { most: Percent::new(most), reason };
+    passing.envelope.torque.driver = bound(20, Reason::PedalMap);
+    passing.envelope.torque.automated = bound(0, Reason::ModeNotGranted);
     let limited = limited(&passing, 0);
     let inputs = Inputs { key: Signal::Known(Key::On), ..Inputs::NEVER };
     let mut record = EventRecord::<32, 4>::new();
@@ -89,7 +93,8 @@ fn what_is_grave_is_kept_when_it_begins() -> Outcome {
     for (now, decision) in [
         (10, status(seated, Level::None, false)),
         (20, status(seated, Level::One, false)),
-        (30, status(seated, Level::Three, false)),
+        // A channel stops in the same cycle: the graver stands for both.
+        (30, limited(&status(seated, Level::Three, false), 2)),
         (40, status(seated, Level::None, false)),
         (50, status(left, Level::One, false)),
         (60, status(left, Level::One, true)),
