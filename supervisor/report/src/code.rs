@@ -36,14 +36,10 @@ codes! {
         NotResponding = 7,
         /// Abnormal update rate.
         UpdateRate = 9,
-        /// Abnormal rate of change.
-        RateOfChange = 10,
         /// Bad intelligent device or component.
         BadDevice = 12,
         /// Out of calibration.
         Calibration = 13,
-        /// Special instructions.
-        SpecialInstructions = 14,
         /// Data valid but above the normal range, moderately severe.
         AboveNormalModerate = 16,
         /// Received network data in error.
