@@ -29,4 +29,5 @@ pub mod stretches;
 pub mod summary;
 pub mod timeline;
 pub mod trace;
+pub mod troubles;
 pub mod words;
