@@ -25,7 +25,7 @@ Examples:
   supervise analysis                                 check the safety analysis
 
 Exit codes: 0 done; 1 the analysis has findings; 2 bad arguments, files, mapping or configuration;
-3 with --fail-on-intervention, if the supervisor intervened.";
+3 with --fail-on-intervention, if the supervisor intervened; 4 a tool is missing, nothing was measured.";
 
 const REPLAY: &str = "\
 Logs are candump's, in both layouts, plain or gzip:
@@ -90,6 +90,11 @@ pub enum Command {
     /// stale; what was never run is shown as such. Without cargo kani it runs nothing, shows the committed record,
     /// and exits with 1 (with 0 by --check, if nothing is stale).
     Prove(Prove),
+    /// Count the instructions of every stage of a cycle, and the bytes of code and state
+    ///
+    /// Needs valgrind; without it nothing is measured, and it exits with 4. Writes target/cost.md and
+    /// target/cost.json. Exits with 1 if a bar of the design is not met, or a file does not show what was measured.
+    Cost(Cost),
 }
 
 /// Arguments of `replay`.
@@ -246,4 +251,18 @@ pub struct Prove {
     /// Run nothing: show the record and whether it is stale
     #[arg(long)]
     pub check: bool,
+}
+
+/// Arguments of `cost`.
+#[derive(Debug, Args)]
+pub struct Cost {
+    /// Compare the rows of this file with what was measured
+    #[arg(long, value_name = "FILE")]
+    pub check: Option<PathBuf>,
+    /// Write the rows into this file, between its marks
+    #[arg(long, value_name = "FILE", conflicts_with = "check")]
+    pub write: Option<PathBuf>,
+    /// One more argument for cargo when it builds for the target
+    #[arg(long, value_name = "ARGUMENT", allow_hyphen_values = true)]
+    pub cargo_arg: Vec<String>,
 }
