@@ -125,6 +125,10 @@ fn asks_nothing(message: Message, values: &Values) -> bool {
     match message.destination() {
         Destination::Command(Channel::DriveTorque) => !drive.active && drive.torque == Percent::ZERO,
         Destination::Command(Channel::Retarder) => retarder.mode == RetarderMode::Off,
-        Destination::Input | Destination::Radar(_) | Destination::Camera(_) | Destination::Command(_) => false,
+        Destination::Input
+        | Destination::Radar(_)
+        | Destination::Camera(_)
+        | Destination::Command(_)
+        | Destination::Status => false,
     }
 }

@@ -1,6 +1,8 @@
 //! What the table of messages is made of.
 
-use supervisor_core::{Channel, Inputs, Outputs};
+use supervisor_core::{
+    Channel, ExitReason, Faults, Inputs, Level, Millis, Mode, Occupancy, Outputs, Record, Stage, Status,
+};
 use supervisor_perceive::{CameraObject, RadarObject};
 
 use crate::coding::Coding;
@@ -39,6 +41,8 @@ pub enum Destination {
     Camera(u8),
     /// A command to this channel; with the supervisor's address, an output.
     Command(Channel),
+    /// From the supervisor to whoever asks how it is (SELF-8a, RPT-1b).
+    Status,
 }
 
 /// Who sends commands.
@@ -79,11 +83,31 @@ pub(crate) struct Values {
     pub outputs: Outputs,
     pub radar: Entry<RadarObject>,
     pub camera: Entry<CameraObject>,
+    pub status: Status,
+    /// When the status was sent, by the clock of the supervisor.
+    pub stamp: Millis,
 }
 
 impl Values {
-    pub(crate) const NONE: Self =
-        Self { inputs: Inputs::NEVER, outputs: Outputs::NEUTRAL, radar: Entry::NONE, camera: Entry::NONE };
+    pub(crate) const NONE: Self = Self {
+        inputs: Inputs::NEVER,
+        outputs: Outputs::NEUTRAL,
+        radar: Entry::NONE,
+        camera: Entry::NONE,
+        status: Status {
+            occupancy: Occupancy::NotConfirmed,
+            parked_by_leave: false,
+            parked_for: Millis::ZERO,
+            stage: Stage::Up,
+            level: Level::None,
+            mode: Mode::Manual,
+            exit: ExitReason::None,
+            safe_state: false,
+            faults: Faults::NONE,
+            record: Record::None,
+        },
+        stamp: Millis::ZERO,
+    };
 }
 
 /// Writes one signal.
@@ -100,7 +124,7 @@ pub(crate) fn get<C: Coding<T>, T: Copy>(payload: u64, start: u32, width: u32, s
 }
 
 macro_rules! messages {
-    (($inputs:ident, $outputs:ident, $radar:ident, $camera:ident) $($(#[$doc:meta])* $number:literal $message:ident(
+    (($($part:ident),*) $($(#[$doc:meta])* $number:literal $message:ident(
         $name:literal, $id:literal, $period:literal, $control_time:ident, $destination:expr, $protection:ident
     ) { $($signal:ident: $coding:ident($start:literal, $width:literal) = $place:expr;)* })*) => {
         /// The messages: a closed table.
@@ -129,12 +153,12 @@ macro_rules! messages {
             pub const ALL: &'static [Self] = &[$(Self::$message,)*];
 
             fn write_signals(self, payload: &mut u64, values: &Values) {
-                let Values { inputs: $inputs, outputs: $outputs, radar: $radar, camera: $camera } = values;
+                let Values { $($part),* } = values;
                 match self { $(Self::$message => { $(put::<$coding, _>(payload, $start, $width, $place);)* })* }
             }
             /// The name of the first signal that cannot be read.
             fn read_signals(self, payload: u64, strict: bool, values: &mut Values) -> Option<&'static str> {
-                let Values { inputs: $inputs, outputs: $outputs, radar: $radar, camera: $camera } = values;
+                let Values { $($part),* } = values;
                 match self {
                     $(Self::$message => { $(if !get::<$coding, _>(payload, $start, $width, strict, &mut $place) {
                         return Some(stringify!($signal));
@@ -144,7 +168,7 @@ macro_rules! messages {
             }
             /// Makes every signal of it unknown; a command stays as it is.
             pub(crate) fn degrade(self, values: &mut Values, cause: Cause) {
-                let Values { inputs: $inputs, outputs: $outputs, radar: $radar, camera: $camera } = values;
+                let Values { $($part),* } = values;
                 match self { $(Self::$message => { $(<$coding as Coding<_>>::degrade(&mut $place, cause);)* })* }
             }
         }

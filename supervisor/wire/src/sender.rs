@@ -1,6 +1,6 @@
 //! From inputs, commands and outputs to frames.
 
-use supervisor_core::{Channel, Command, Commands, Count, Inputs, Millis, Outputs};
+use supervisor_core::{Channel, Command, Commands, Count, Inputs, Millis, Outputs, Status};
 use supervisor_perceive::Scene;
 
 use crate::frame::Frame;
@@ -9,15 +9,28 @@ use crate::message::{Destination, Source, Values};
 use crate::qualifier::elapsed;
 use crate::table::Message;
 
+/// SELF-10b: how long after it was sent a frame may come back: two cycles. A controller that hands back its own frames
+/// does so when they are on the bus; one that waits longer for the bus is a fault of its own.
+const ECHO: Millis = Millis::new(20);
+
+/// A frame that was sent.
+#[derive(Clone, Copy, Debug)]
+struct Sent {
+    /// Without counter and check field.
+    payload: u64,
+    counter: u8,
+    at: Millis,
+    /// It has come back: what looks the same from now on is of somebody else.
+    echoed: bool,
+}
+
 /// What the sender keeps of one message.
 #[derive(Clone, Copy, Debug)]
 struct Slot {
-    /// Counter of the next frame.
-    counter: u8,
-    /// When it was due last; `None` before the first one.
-    due: Option<Millis>,
-    /// The payload sent last.
-    sent: u64,
+    /// When it was due last.
+    due: Millis,
+    /// The last frame and the one before it.
+    sent: [Option<Sent>; 2],
 }
 
 /// Sends frames: keeps counters and periods.
@@ -59,7 +72,7 @@ impl Sender {
     /// Nothing sent yet.
     #[must_use]
     pub const fn new() -> Self {
-        let slot = Slot { counter: 0, due: None, sent: 0 };
+        let slot = Slot { due: Millis::ZERO, sent: [None; 2] };
         Self { slots: [slot; Message::COUNT], radar_cycle: Count::ZERO, camera_cycle: Count::ZERO }
     }
 
@@ -88,7 +101,11 @@ impl Sender {
                     }
                     self.camera_cycle = next(self.camera_cycle);
                 }
-                Destination::Input | Destination::Radar(_) | Destination::Camera(_) | Destination::Command(_) => {}
+                Destination::Input
+                | Destination::Radar(_)
+                | Destination::Camera(_)
+                | Destination::Command(_)
+                | Destination::Status => {}
             }
         }
     }
@@ -101,6 +118,32 @@ impl Sender {
     /// Sends the outputs that are due or have changed, as the supervisor (CMD-3d, SELF-8a).
     pub fn encode_outputs(&mut self, now: Millis, outputs: &Outputs, emit: &mut impl FnMut(Frame)) {
         self.encode(now, Source::Supervisor, &outputs.as_commands(), emit);
+    }
+
+    /// Sends what the supervisor says of itself, when it is due (SELF-8a, RPT-1b). `now` goes along as time stamp.
+    pub fn encode_status(&mut self, now: Millis, status: &Status, emit: &mut impl FnMut(Frame)) {
+        let values = Values { status: *status, stamp: now, ..Values::NONE };
+        for message in [Message::SupervisorStatus, Message::SupervisorFaults] {
+            if self.due(now, message) {
+                self.send(now, message, message.id(), &values, emit);
+            }
+        }
+    }
+
+    /// SELF-10b: whether this frame from the bus is ours, handed back: to the bit one of the last two that were sent of
+    /// this message, within [`ECHO`]. Each comes back once.
+    ///
+    /// Two, because one may still wait for the bus when the next is sent; once, because a frame that is repeated makes
+    /// the actuator refuse the counter.
+    pub(crate) fn takes_back(&mut self, now: Millis, message: Message, frame: &Frame) -> bool {
+        let (id, protection) = (message.id_from(Source::Supervisor), message.protection());
+        let is_it = |sent: &&mut Sent| {
+            let same = *frame == Frame::new(id, protection.seal(id, sent.payload, sent.counter));
+            same && !sent.echoed && elapsed(now, sent.at) <= ECHO
+        };
+        let slot = self.slots.get_mut(message.number());
+        let sent = slot.and_then(|slot| slot.sent.iter_mut().flatten().find(is_it));
+        sent.map(|sent| sent.echoed = true).is_some()
     }
 
     /// All frames of a channel go together.
@@ -118,12 +161,13 @@ impl Sender {
     }
 
     fn due(&self, now: Millis, message: Message) -> bool {
-        let due = self.slots.get(message.number()).and_then(|slot| slot.due);
-        due.is_none_or(|due| elapsed(now, due) >= message.period())
+        let slot = self.slots.get(message.number());
+        slot.is_some_and(|slot| slot.sent[0].is_none() || elapsed(now, slot.due) >= message.period())
     }
 
     fn changed(&self, message: Message, values: &Values) -> bool {
-        self.slots.get(message.number()).is_some_and(|slot| slot.sent != message.write(values))
+        let sent = self.slots.get(message.number()).and_then(|slot| slot.sent[0]);
+        sent.is_none_or(|sent| sent.payload != message.write(values))
     }
 
     fn send(&mut self, now: Millis, message: Message, id: u32, values: &Values, emit: &mut impl FnMut(Frame)) {
@@ -132,15 +176,17 @@ impl Sender {
         // The period runs on from when the frame was due, not from when it was sent: no drift. It begins anew after
         // a pause or a change; the very first one is shortened, so that not all messages are due together for ever.
         let first = u32::try_from(message.number()).unwrap_or(0).saturating_mul(10).checked_rem(period.raw());
-        let due = slot.due.map(|due| Millis::new(due.raw().wrapping_add(period.raw())));
-        slot.due = Some(match due {
+        let due = Millis::new(slot.due.raw().wrapping_add(period.raw()));
+        let [last, _] = slot.sent;
+        slot.due = match last {
             None => Millis::new(now.raw().wrapping_sub(first.unwrap_or(0))),
-            Some(due) if elapsed(now, due) < period => due,
+            Some(_) if elapsed(now, due) < period => due,
             Some(_) => now,
-        });
-        slot.sent = message.write(values);
-        emit(Frame::new(id, message.protection().seal(id, slot.sent, slot.counter)));
-        let next = slot.counter.saturating_add(1);
-        slot.counter = if next < message.protection().counts() { next } else { 0 };
+        };
+        let next = last.map_or(0, |last| last.counter.saturating_add(1));
+        let counter = if next < message.protection().counts() { next } else { 0 };
+        let payload = message.write(values);
+        slot.sent = [Some(Sent { payload, counter, at: now, echoed: false }), last];
+        emit(Frame::new(id, message.protection().seal(id, payload, counter)));
     }
 }

@@ -19,7 +19,7 @@ fn receiver() -> Receiver {
 /// Takes `frame` after a predecessor of the same message, so that only its own faults count.
 fn take(message: Message, frame: &Frame) -> Result<Accepted, Refusal> {
     let neutral = common::frame(message, &Inputs::NEVER, &Outputs::NEUTRAL, 0);
-    take_after(&mut receiver(), message, &neutral, frame)
+    take_after(&mut receiver_of(message, &at_once()), message, &neutral, frame)
 }
 
 /// The same, with a good frame that is there already.
@@ -146,8 +146,8 @@ fn counters_out_of_range() {
     }
 }
 
-fn take_raw(_: Message, frame: &Frame) -> Result<Accepted, Refusal> {
-    receiver().accept(ms(0), frame)
+fn take_raw(message: Message, frame: &Frame) -> Result<Accepted, Refusal> {
+    receiver_of(message, &at_once()).accept(ms(0), frame)
 }
 
 /// CMD-1a: an identifier that is not in the table is refused; also one bit beside those that are.
@@ -184,6 +184,15 @@ fn sources() {
             Ok(Accepted { message, lost: 0 }),
             "{message:?}"
         );
+    }
+}
+
+/// SELF-10b: the supervisor takes no status from the bus: it is its own.
+#[test]
+fn no_status_of_another() {
+    for message in [Message::SupervisorStatus, Message::SupervisorFaults] {
+        let frame = common::frame(message, &Inputs::NEVER, &Outputs::NEUTRAL, 0);
+        assert_eq!(receiver().accept(ms(0), &frame), refused(message, Fault::Source));
     }
 }
 
@@ -231,7 +240,9 @@ fn meaningful(signal: &SignalLayout, raw: u64) -> bool {
         "SeatSensor1" | "SeatSensor2" | "DriveStopped" | "StabilityActive" | "HandsOff" | "EPBState" | "EPBMode"
         | "CruiseSwitch" | "DriverSet" | "K1" | "K4" | "AuxiliariesStopped" => raw != 2,
         "EPSState" | "ADSState" => raw <= 3 || raw == 7,
-        "RadarClass" | "CameraClass" | "EPBRequest" | "K4Request" | "K1Request" | "XBRControlMode" => raw <= 2,
+        "ExitReason" => raw <= 11,
+        "RadarClass" | "CameraClass" | "EPBRequest" | "K4Request" | "K1Request" | "XBRControlMode"
+        | "SeatOccupancy" | "ModeGranted" | "PersistentRecord" => raw <= 2,
         "OverrideControlMode" | "RetarderControlMode" => raw == 0 || raw == 2,
         "ControlPurpose" => raw <= 1 || raw == 31,
         "RequestedTorque" => (125..=250).contains(&raw),
@@ -259,9 +270,13 @@ fn every_raw_value() {
             }
         });
         let neutral = frame;
-        let mut receiver = receiver();
+        let mut receiver = receiver_of(message, &at_once());
+        let mut random = Random::new(5);
         for signal in message.signals() {
-            for raw in 0..1_u64 << signal.width {
+            // All of them; of the widest, both ends and some between.
+            let count = 1_u64 << signal.width;
+            let some = (0..1000).map(|_| random.below(count)).chain([count - 2, count - 1]);
+            for raw in (0..count.min(1 << 16)).chain(some) {
                 let payload = with_bits(frame.payload(), signal.start, signal.width, raw);
                 let sent = resealed(message, &Frame::new(frame.id, payload), 1);
                 let result = take_after(&mut receiver, message, &neutral, &sent);
@@ -278,7 +293,7 @@ fn every_raw_value() {
 
 /// What the receiver knows after this frame and its predecessor, encoded again.
 fn encoded_again(message: Message, frame: &Frame) -> Option<Frame> {
-    let mut receiver = receiver();
+    let mut receiver = receiver_of(message, &at_once());
     let (start, width, count) = counter_place(message);
     let counter = u8::try_from(bits(frame.payload(), start, width)).unwrap();
     let _ = receiver.accept(ms(0), &resealed(message, frame, (counter + count - 1) % count));
@@ -302,6 +317,14 @@ fn encoded_again(message: Message, frame: &Frame) -> Option<Frame> {
     let mut sender = Sender::new();
     sender.encode_inputs(ms(0), sample.inputs, sample.scene, &mut emit);
     sender.encode_commands(ms(0), sample.commands, &mut emit);
+    // One frame of the two is enough here: the other says what it says at the start.
+    if message.destination() == Destination::Status {
+        let half =
+            if message == Message::SupervisorStatus { Message::SupervisorFaults } else { Message::SupervisorStatus };
+        let _ = receiver.accept(ms(0), &common::frame(half, &Inputs::NEVER, &Outputs::NEUTRAL, 0));
+        let (stamp, status) = receiver.status(ms(0)).ok()?;
+        sender.encode_status(stamp, &status, &mut emit);
+    }
     again
 }
 
