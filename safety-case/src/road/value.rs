@@ -5,8 +5,8 @@ use std::fmt::Debug;
 use supervisor::{
     AdsState, AngleDeciDeg, BarTorque50mNm, BrakeMode, Class, ClosingCmS, Contact, ContactorRequest, CurrentDeciA,
     DecelMs2Q11, DistanceCm, DrivingMode, EpbMode, EpbRequest, EpbState, EpbSwitch, EpsState, Gear, GearRequest, Key,
-    OffsetCm, Origin, Pedal250, Percent, Priority, RateDeciDegS, RetarderMode, Seat, SpeedKmhQ8, TorqueNmQ10, Wiper,
-    XbrStatus,
+    Mass10Kg, OffsetCm, Origin, Pedal250, Percent, Pressure5KPa, Priority, RateDeciDegS, RetarderMode, Seat,
+    SpeedKmhQ8, TorqueNmQ10, Wiper, XbrStatus,
 };
 
 /// How a value is written in a mapping.
@@ -113,6 +113,8 @@ numbers! {
     TorqueNmQ10: "Nm", 1024.0;
     BarTorque50mNm: "Nm", 20.0;
     CurrentDeciA: "A", 10.0;
+    Mass10Kg: "kg", 0.1;
+    Pressure5KPa: "kPa", 0.2;
     DistanceCm: "m", 100.0;
     OffsetCm: "m", 100.0;
     ClosingCmS: "m/s", 100.0;

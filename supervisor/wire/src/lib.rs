@@ -12,13 +12,13 @@
 //! 5. **Time is an argument**, u32 milliseconds, and may wrap.
 //!
 //! # How a receiver tells a dead supervisor (SELF-8a)
-//! Every output comes by its period or sooner, with a running counter and a check field: Profile 11, and in TSC1 and XBR
-//! those of J1939. A receiver goes to its safe reaction when one of these holds, each for itself:
+//! Every output comes by its period or sooner, with a running counter and a check field: Profile 11, and in TSC1 and
+//! XBR those of J1939. A receiver goes to its safe reaction when one of these holds, each for itself:
 //! - *silent*: no good frame of a message for 2.5 times its control time (XBR and TSC1 of the drive: 125 ms);
 //! - *frozen*: the counter stands still. Such a frame is not a good one, so this ends in the same time-out;
 //! - *old*: frames that run on, but from a queue. `SupervisorStatus` carries the supervisor's clock as time stamp. The
-//!   receiver keeps the least difference *own clock − time stamp* it has seen: its age is by how much the difference of
-//!   the newest frame is greater, plus the time since that frame came. Older than 125 ms is dead. A time stamp that
+//!   receiver keeps the least difference *own clock − time stamp* it has seen: its age is by how much the difference
+//!   of the newest frame is greater, plus the time since that frame came. Older than 125 ms is dead. A time stamp that
 //!   does not move on with the counter is a supervisor whose clock stands. Two crystals of 100 ppm drift apart by
 //!   0.72 s in an hour: take the least difference of the last ten seconds.
 //!
@@ -61,7 +61,7 @@ mod sender;
 mod table;
 
 pub use frame::Frame;
-pub use message::{ControlTime, Destination, E2eClass, SignalLayout, Source};
+pub use message::{ControlTime, Destination, SignalLayout, Source};
 pub use protection::Protection;
 pub use qualifier::{Qualifier, Timing};
 pub use receiver::{Receiver, Sample};

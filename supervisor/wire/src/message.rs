@@ -9,16 +9,6 @@ use crate::coding::Coding;
 use crate::frame::{extract, full, insert};
 use crate::list::Entry;
 
-/// The class of a message (E2E-1a). *Redundant* is a property of signals, not of messages: the core compares the two
-/// sources.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum E2eClass {
-    /// CRC or checksum, counter, age.
-    Protected,
-    /// Range and age only (E2E-1e).
-    Bare,
-}
-
 /// The longest period S4 table 5 allows; the time-out is 2.5 times as long (E2E-1g).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ControlTime {
@@ -131,22 +121,18 @@ macro_rules! messages {
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         pub enum Message { $($(#[$doc])* $message,)* }
 
-        messages! { @get /** Its place in the table. */
-            number: usize; $($message => $number,)* }
-        messages! { @get /** Its name, as in `ebus.dbc`. */
-            name: &'static str; $($message => $name,)* }
-        messages! { @get /** The identifier, as its sensor or the main controller sends it. */
+        messages! { @get /** Its place in the table. */ number: usize; $($message => $number,)* }
+        messages! { @get /** Its name, as in `ebus.dbc`. */ name: &'static str; $($message => $name,)* }
+        messages! { @get /** The identifier, as its sensor or the main controller has it. */
             id: u32; $($message => $id,)* }
-        messages! { @get /** How often it is sent. */
-            period: Millis; $($message => Millis::new($period),)* }
+        messages! { @get /** How often it is sent. */ period: Millis; $($message => Millis::new($period),)* }
         messages! { @get /** The class of its time-out (E2E-1g). */
             control_time: ControlTime; $($message => ControlTime::$control_time,)* }
-        messages! { @get /** Where it goes. */
-            destination: Destination; $($message => $destination,)* }
-        messages! { @get /** How it is protected. */
-            protection: Protection; $($message => Protection::$protection,)* }
+        messages! { @get /** Where it goes. */ destination: Destination; $($message => $destination,)* }
+        messages! { @get /** How it is protected. */ protection: Protection; $($message => Protection::$protection,)* }
         messages! { @get /** Its signals, without counter and check field. */
-            signals: &'static [SignalLayout]; $($message => &[$(SignalLayout { name: stringify!($signal), start: $start, width: $width },)*],)* }
+            signals: &'static [SignalLayout];
+            $($message => &[$(SignalLayout { name: stringify!($signal), start: $start, width: $width },)*],)* }
 
         impl Message {
             /// Every message, in the order of the table.

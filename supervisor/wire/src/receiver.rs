@@ -92,12 +92,8 @@ impl Receiver {
         let unknown = Refusal { message: None, fault: Fault::Identifier };
         let (message, source) = Message::identify(frame.id).ok_or(unknown)?;
         let refusal = |fault| Refusal { message: Some(message), fault };
-        let wrong_source = match message.destination() {
-            Destination::Command(_) => source != self.source,
-            Destination::Status => self.source != Source::Supervisor,
-            Destination::Input | Destination::Radar(_) | Destination::Camera(_) => false,
-        };
-        if wrong_source {
+        let own_status = message.destination() == Destination::Status && self.source == Source::MainController;
+        if own_status || message.is_command() && source != self.source {
             return Err(refusal(Fault::Source));
         }
         let mut values = self.values;
@@ -115,7 +111,7 @@ impl Receiver {
     /// that comes by this bus goes to [`accept`](Self::accept) too. `sender` is the one of the outputs.
     ///
     /// What is found is in the next sample, once. The priority in the identifier does not count, as in J1939.
-    /// - SELF-10a: a command to an actuator from another source address, or to all addresses, is foreign on its channel.
+    /// - SELF-10a: a command to an actuator from another source address, or to all of them, is foreign on its channel.
     /// - SELF-10b: a frame of ours that is not an echo has a second sender; a command is foreign too. A controller that
     ///   receives its own frames hands each back once, to the bit, within two cycles.
     ///

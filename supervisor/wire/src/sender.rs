@@ -80,10 +80,12 @@ impl Sender {
     pub fn encode_inputs(&mut self, now: Millis, inputs: &Inputs, scene: &Scene, emit: &mut impl FnMut(Frame)) {
         let mut values = Values { inputs: *inputs, ..Values::NONE };
         for message in Message::ALL.iter().copied() {
-            let due = self.due(now, message);
+            if !self.due(now, message) {
+                continue;
+            }
             match message.destination() {
-                Destination::Input if due => self.send(now, message, message.id(), &values, emit),
-                Destination::Radar(0) if due => {
+                Destination::Input => self.send(now, message, message.id(), &values, emit),
+                Destination::Radar(0) => {
                     for entry in Entry::list(self.radar_cycle, scene.radar_known, &scene.radar) {
                         values.radar = entry;
                         for part in [Message::RadarPosition, Message::RadarMotion] {
@@ -92,7 +94,7 @@ impl Sender {
                     }
                     self.radar_cycle = next(self.radar_cycle);
                 }
-                Destination::Camera(0) if due => {
+                Destination::Camera(0) => {
                     for entry in Entry::list(self.camera_cycle, scene.camera_known, &scene.camera) {
                         values.camera = entry;
                         for part in [Message::CameraObject, Message::CameraCorner, Message::CameraSize] {
@@ -101,11 +103,7 @@ impl Sender {
                     }
                     self.camera_cycle = next(self.camera_cycle);
                 }
-                Destination::Input
-                | Destination::Radar(_)
-                | Destination::Camera(_)
-                | Destination::Command(_)
-                | Destination::Status => {}
+                Destination::Radar(_) | Destination::Camera(_) | Destination::Command(_) | Destination::Status => {}
             }
         }
     }

@@ -13,7 +13,7 @@ use crate::coding::{
 use crate::frame::{full, insert};
 use crate::list::Entry;
 use crate::message::Destination::{Camera, Command, Input, Radar, Status};
-use crate::message::{ControlTime, Destination, E2eClass, SignalLayout, Source, Values, get, messages, put};
+use crate::message::{ControlTime, Destination, SignalLayout, Source, Values, get, messages, put};
 use crate::protection::Protection;
 use crate::refusal::Fault;
 
@@ -190,11 +190,6 @@ impl Message {
     /// How many there are.
     pub const COUNT: usize = Self::ALL.len();
 
-    /// E2E-1a: its class; every message has exactly one.
-    #[must_use]
-    pub fn class(self) -> E2eClass {
-        if self.protection() == Protection::Bare { E2eClass::Bare } else { E2eClass::Protected }
-    }
     /// Whether it is a command.
     #[must_use]
     pub const fn is_command(self) -> bool {
@@ -253,7 +248,7 @@ impl Message {
             }
         }
         (values.radar, values.camera) = (Entry::NONE, Entry::NONE);
-        let unread = self.read_signals(payload, self.class() == E2eClass::Protected, values);
+        let unread = self.read_signals(payload, self.protection() != Protection::Bare, values);
         let misfit = match self.destination() {
             Radar(_) => !values.radar.fits(MAX_RADAR),
             Camera(_) => !values.camera.fits(MAX_CAMERA),

@@ -43,7 +43,6 @@ fn table() {
     let mut ids = BTreeSet::new();
     for (number, message) in Message::ALL.iter().enumerate() {
         assert_eq!(message.number(), number);
-        assert_eq!(message.class() == E2eClass::Bare, message.protection() == Protection::Bare);
         assert!(ids.insert(message.id()), "{message:?}");
         let output = message.id_from(Source::Supervisor);
         assert_eq!(output != message.id(), message.is_command());
@@ -58,7 +57,7 @@ fn table() {
         assert!(message.period().raw() <= longest, "{message:?}");
     }
     assert_eq!(Message::COUNT, Message::ALL.len());
-    let bare: Vec<_> = Message::ALL.iter().filter(|message| message.class() == E2eClass::Bare).collect();
+    let bare: Vec<_> = Message::ALL.iter().filter(|message| message.protection() == Protection::Bare).collect();
     assert_eq!(bare, [&Message::Ccvs1, &Message::Eec2, &Message::Ebc1, &Message::Etc2]);
 }
 
@@ -240,15 +239,15 @@ fn meaningful(signal: &SignalLayout, raw: u64) -> bool {
         "SeatSensor1" | "SeatSensor2" | "DriveStopped" | "StabilityActive" | "HandsOff" | "EPBState" | "EPBMode"
         | "CruiseSwitch" | "DriverSet" | "K1" | "K4" | "AuxiliariesStopped" => raw != 2,
         "EPSState" | "ADSState" => raw <= 3 || raw == 7,
-        "ExitReason" => raw <= 11,
-        "RadarClass" | "CameraClass" | "EPBRequest" | "K4Request" | "K1Request" | "XBRControlMode"
-        | "SeatOccupancy" | "ModeGranted" | "PersistentRecord" => raw <= 2,
+        "RadarClass" | "CameraClass" | "EPBRequest" | "K4Request" | "K1Request" | "XBRControlMode" => raw <= 2,
         "OverrideControlMode" | "RetarderControlMode" => raw == 0 || raw == 2,
         "ControlPurpose" => raw <= 1 || raw == 31,
         "RequestedTorque" => (125..=250).contains(&raw),
         "RetarderTorque" => raw <= 125,
         "ExternalAccelerationDemand" => raw <= 32_127,
         "GearRequest" => raw <= 4,
+        "ExitReason" => raw <= 11,
+        "SeatOccupancy" | "ModeGranted" | "PersistentRecord" => raw < 3,
         // In a list of one object.
         "Index" => raw == 0,
         "Length" => (1..=if signal.width == 6 { 32 } else { 16 }).contains(&raw),
