@@ -133,8 +133,11 @@ impl Receiver {
         result
     }
 
-    /// VLC-1e: of several good requests in one cycle, the one for the greatest deceleration. The electric part has its
-    /// own message.
+    /// VLC-1e: of several good requests in one cycle, the one for the greatest deceleration; of equal ones the last. It
+    /// is held until the next good request after the cycle. The electric part has its own message.
+    ///
+    /// The link has one main controller: if two send under its address they break each other's counters, and of the
+    /// frames that still pass their check the strongest counts.
     fn strongest(&mut self, request: ServiceBrake) -> ServiceBrake {
         let demand = |brake: &ServiceBrake| if brake.mode == BrakeMode::Off { DecelMs2Q11::ZERO } else { brake.total };
         let before = self.brake.filter(|before| demand(before) > demand(&request)).unwrap_or(request);

@@ -331,7 +331,7 @@ proptest! {
     /// SELF-1a: any frames at any times: no panic, whatever is asked for in between.
     #[test]
     fn any_frames(frames in prop::collection::vec((0..80_usize, any::<u8>(), any::<[u8; 8]>(), any::<u16>()), 1..200)) {
-        let mut receiver = Receiver::new(&Config::DEFAULT);
+        let (mut receiver, mut sender) = (Receiver::new(&Config::DEFAULT), Sender::new());
         let mut now = 0_u32;
         for (which, length, data, step) in frames {
             now = now.wrapping_add(u32::from(step) * u32::from(step));
@@ -339,11 +339,14 @@ proptest! {
             let length = if length < 250 { 8 } else { length };
             let frame = Frame { id, length, data };
             let _ = receiver.accept(ms(now), &frame);
+            let _ = receiver.accept_actuator(ms(now), &frame, &mut sender);
+            sender.encode_outputs(ms(now), &Outputs::NEUTRAL, &mut |_| ());
             if let Some(message) = Message::ALL.get(which) {
                 let sealed = if message.protection() == Protection::Bare { frame } else { resealed(*message, &frame, length & 15) };
                 let _ = receiver.accept(ms(now), &sealed);
             }
             let _ = receiver.sample(ms(now));
+            let _ = receiver.status(ms(now));
         }
     }
 
