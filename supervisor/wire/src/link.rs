@@ -4,7 +4,7 @@ use supervisor_core::{Cause, Command, Millis, Percent, Rejection, RetarderMode};
 
 use crate::frame::Frame;
 use crate::message::Values;
-use crate::qualifier::{Qualifier, Timing, elapsed};
+use crate::qualifier::{FOREVER, Qualifier, Timing, elapsed};
 use crate::refusal::Fault;
 use crate::table::Message;
 
@@ -94,7 +94,7 @@ impl Link {
 
     /// E2E-1h: after a frame that asked for nothing, an on-demand message does not time out.
     fn patience(&self) -> Timing {
-        if self.idle { Timing { timeout: Millis::new(u32::MAX), ..self.timing } } else { self.timing }
+        if self.idle { Timing { timeout: FOREVER, ..self.timing } } else { self.timing }
     }
 
     /// The counter of the last frame, if it was accepted.

@@ -12,7 +12,7 @@ use crate::frame::Frame;
 use crate::link::Link;
 use crate::list::List;
 use crate::message::{ControlTime, Destination, Source, Values};
-use crate::qualifier::{Timing, elapsed};
+use crate::qualifier::{FOREVER, Timing, elapsed};
 use crate::refusal::{Accepted, Fault, Refusal};
 use crate::sender::Sender;
 use crate::table::Message;
@@ -232,10 +232,8 @@ impl Receiver {
 
     /// The electric part needs its own frame; without it the demand of XBR stands, all of it by friction.
     fn brake(&mut self, now: Millis, brake: ServiceBrake) -> Command<ServiceBrake> {
-        let electric = match self.command(now, Message::BrakeSplit, brake.electric) {
-            Command::Fresh(electric) | Command::Held(_, electric) => electric,
-            Command::Absent | Command::Rejected(_) => ServiceBrake::NEUTRAL.electric,
-        };
+        let split = self.command(now, Message::BrakeSplit, brake.electric);
+        let electric = split.usable(FOREVER).unwrap_or(ServiceBrake::NEUTRAL.electric);
         self.command(now, Message::ServiceBrake, ServiceBrake { electric, ..brake })
     }
 

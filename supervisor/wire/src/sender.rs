@@ -1,12 +1,12 @@
 //! From inputs, commands and outputs to frames.
 
-use supervisor_core::{Channel, Command, Commands, Count, Inputs, Millis, Outputs, Status};
+use supervisor_core::{Channel, Commands, Count, Inputs, Millis, Outputs, Status};
 use supervisor_perceive::Scene;
 
 use crate::frame::Frame;
 use crate::list::Entry;
 use crate::message::{Destination, Source, Values};
-use crate::qualifier::elapsed;
+use crate::qualifier::{FOREVER, elapsed};
 use crate::table::Message;
 
 /// SELF-10b: how long after it was sent a frame may come back: two cycles. A controller that hands back its own frames
@@ -47,19 +47,11 @@ impl Default for Sender {
     }
 }
 
-/// The value of a command that is sent: refused and absent ones are not.
-fn sent<T>(command: Command<T>) -> Option<T> {
-    match command {
-        Command::Fresh(value) | Command::Held(_, value) => Some(value),
-        Command::Absent | Command::Rejected(_) => None,
-    }
-}
-
-/// The values of the commands, and which channels have one.
+/// The values of the commands, and which channels have one: refused and absent ones are not sent.
 macro_rules! gather {
     ($commands:ident; $($field:ident: $channel:ident),*) => {(
-        Outputs { $($field: sent($commands.$field).unwrap_or(Outputs::NEUTRAL.$field),)* },
-        |channel: &Channel| match channel { $(Channel::$channel => sent($commands.$field).is_some(),)* },
+        Outputs { $($field: $commands.$field.usable(FOREVER).unwrap_or(Outputs::NEUTRAL.$field),)* },
+        |channel: &Channel| match channel { $(Channel::$channel => $commands.$field.usable(FOREVER).is_ok(),)* },
     )};
 }
 
@@ -79,32 +71,24 @@ impl Sender {
     /// Sends the inputs and object lists that are due, as their sensors. What is unknown is sent as "not available".
     pub fn encode_inputs(&mut self, now: Millis, inputs: &Inputs, scene: &Scene, emit: &mut impl FnMut(Frame)) {
         let mut values = Values { inputs: *inputs, ..Values::NONE };
-        for message in Message::ALL.iter().copied() {
-            if !self.due(now, message) {
-                continue;
-            }
-            match message.destination() {
-                Destination::Input => self.send(now, message, message.id(), &values, emit),
-                Destination::Radar(0) => {
-                    for entry in Entry::list(self.radar_cycle, scene.radar_known, &scene.radar) {
-                        values.radar = entry;
-                        for part in [Message::RadarPosition, Message::RadarMotion] {
-                            self.send(now, part, part.id(), &values, emit);
-                        }
-                    }
-                    self.radar_cycle = next(self.radar_cycle);
+        self.send_due(now, Destination::Input, &values, emit);
+        if self.due(now, Message::RadarPosition) {
+            for entry in Entry::list(self.radar_cycle, scene.radar_known, &scene.radar) {
+                values.radar = entry;
+                for part in [Message::RadarPosition, Message::RadarMotion] {
+                    self.send(now, part, part.id(), &values, emit);
                 }
-                Destination::Camera(0) => {
-                    for entry in Entry::list(self.camera_cycle, scene.camera_known, &scene.camera) {
-                        values.camera = entry;
-                        for part in [Message::CameraObject, Message::CameraCorner, Message::CameraSize] {
-                            self.send(now, part, part.id(), &values, emit);
-                        }
-                    }
-                    self.camera_cycle = next(self.camera_cycle);
-                }
-                Destination::Radar(_) | Destination::Camera(_) | Destination::Command(_) | Destination::Status => {}
             }
+            self.radar_cycle = next(self.radar_cycle);
+        }
+        if self.due(now, Message::CameraObject) {
+            for entry in Entry::list(self.camera_cycle, scene.camera_known, &scene.camera) {
+                values.camera = entry;
+                for part in [Message::CameraObject, Message::CameraCorner, Message::CameraSize] {
+                    self.send(now, part, part.id(), &values, emit);
+                }
+            }
+            self.camera_cycle = next(self.camera_cycle);
         }
     }
 
@@ -121,9 +105,14 @@ impl Sender {
     /// Sends what the supervisor says of itself, when it is due (SELF-8a, RPT-1b). `now` goes along as time stamp.
     pub fn encode_status(&mut self, now: Millis, status: &Status, emit: &mut impl FnMut(Frame)) {
         let values = Values { status: *status, stamp: now, ..Values::NONE };
-        for message in [Message::SupervisorStatus, Message::SupervisorFaults] {
+        self.send_due(now, Destination::Status, &values, emit);
+    }
+
+    /// Messages of one sender that are due.
+    fn send_due(&mut self, now: Millis, to: Destination, values: &Values, emit: &mut impl FnMut(Frame)) {
+        for message in Message::ALL.iter().copied().filter(|message| message.destination() == to) {
             if self.due(now, message) {
-                self.send(now, message, message.id(), &values, emit);
+                self.send(now, message, message.id(), values, emit);
             }
         }
     }
