@@ -25,7 +25,9 @@ fn a_disagreement_is_reported_and_obliges_nothing() {
 /// MIT-8b: where both opinions agree, near or far, severe or not, nothing is reported.
 #[test]
 fn where_both_opinions_agree_nothing_is_reported() {
-    for object in [object(20_000, 100), at(10_000), at(5_000), at(4_000), at(3_000), at(2_700), at(1_000), object(5_000, -500)] {
+    for object in
+        [object(20_000, 100), at(10_000), at(5_000), at(4_000), at(3_000), at(2_700), at(1_000), object(5_000, -500)]
+    {
         let (_, decision) = Bus::approaching(object);
         assert!(!decision.status.faults.contains(Faults::TTC_DISAGREEMENT), "{object:?}");
     }

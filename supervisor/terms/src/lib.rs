@@ -42,7 +42,7 @@ pub use status::{Mode, Occupancy, Record, ResetCause, Stage};
 pub use threat::{Alert, Closing, Level, Object, Threat};
 pub use units::{
     AngleDeciDeg, BarTorque50mNm, ClosingCmS, Count, CurrentDeciA, DecelMs2Q11, DistanceCm, Millis, OffsetCm, Pedal250,
-    Percent, PercentPerS, RateDeciDegS, Rest, SpeedKmhQ8, Timer, TorqueNmQ10,
+    Percent, PercentPerS, Pixel, RateDeciDegS, Rest, RotationQ14, SpeedKmhQ8, Timer, TorqueNmQ10,
 };
 pub use unknown::{Group, Meaning, meaning};
 pub use verdict::{ExitReason, Faults, Kind, Reason, Verdict, Verdicts};

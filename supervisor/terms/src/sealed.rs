@@ -6,7 +6,7 @@ use crate::word::Words;
 /// "EBSC", little endian.
 const MAGIC: u32 = 0x4353_4245;
 /// Version of the layout: changes with every change of the table.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 /// Words around the values: magic, version, count before; CRC after.
 const FRAME_WORDS: usize = 4;
 /// Length of a sealed configuration in bytes.
