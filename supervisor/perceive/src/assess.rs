@@ -166,12 +166,9 @@ pub fn merge(first: Assessment, second: Assessment) -> Assessment {
     // Between equally severe objects their values decide, the nearer one first.
     let place = |object: Object| (Reverse(object.distance), object.closing, object.offset);
     let severity = |of: &Assessment| (of.object.is_some(), of.level, of.required);
-    let decides = match severity(&second).cmp(&severity(&first)) {
-        Ordering::Greater => second.object,
-        Ordering::Less => first.object,
-        Ordering::Equal if second.object.map(place) > first.object.map(place) => second.object,
-        Ordering::Equal => first.object,
-    };
+    let order = severity(&second).cmp(&severity(&first));
+    let nearer = order == Ordering::Equal && second.object.map(place) > first.object.map(place);
+    let decides = if nearer || order == Ordering::Greater { second.object } else { first.object };
     Assessment {
         level: first.level.max(second.level),
         closing: first.closing || second.closing,

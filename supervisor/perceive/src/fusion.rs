@@ -120,12 +120,14 @@ impl Best {
 /// Everything about a radar object that decides anything, in one word, to be compared at once.
 fn values(object: &RadarObject, config: &Config) -> u64 {
     let RadarObject { distance, offset, closing, age, updates } = *object;
-    // An age has 15 bits.
-    let consistent = u16::from(updates >= config.consistent_updates);
-    let last = u16::try_from(whole(age)).unwrap_or(u16::MAX).saturating_mul(2).saturating_add(consistent);
-    let [[a, b], [c, d]] = [distance.raw(), last].map(u16::to_be_bytes);
-    let [[e, f], [g, h]] = [offset.raw(), closing.raw()].map(i16::to_be_bytes);
-    u64::from_be_bytes([a, b, c, d, e, f, g, h])
+    let consistent = u64::from(updates >= config.consistent_updates);
+    let bits = |raw: i16| u64::from(raw.cast_unsigned());
+    // An age has 15 bits, and one is left over.
+    (u64::from(distance.raw()) << 48)
+        | (bits(offset.raw()) << 32)
+        | (bits(closing.raw()) << 16)
+        | (u64::from(whole(age).unsigned_abs()) << 1)
+        | consistent
 }
 
 /// A camera object, ready to be compared.
