@@ -13,9 +13,9 @@
 //!   nobody (phantom braking), and a thing that the camera misses waits two updates more, no longer (missed braking).
 //! - *Camera alone* obliges nothing and permits: the picture of a car on a poster brakes nobody, and the main controller
 //!   may still brake for what only the camera sees.
-//! - *The distances disagree*: still matched. The box is made at the radar's depth, so at 30 % the depths differ by
-//!   less than a factor of 1.9, or the boxes would not match. A bound on the camera's distance would undo matches just
-//!   when its estimate is worst: one degree of pitch makes 50 m into 33 m or 100 m, as the bus begins to brake.
+//! - *The distances disagree*: still matched. The box is made at the radar's depth, so at 30 % the depth of a thing of
+//!   the assumed size is right within a factor of 1.8. A bound on the camera's distance would undo matches just when
+//!   its estimate is worst: one degree of pitch makes 50 m into 33 m or 100 m, as the bus begins to brake.
 //!
 //! `updates` is what the radar's own tracker counts. Perception keeps no memory on purpose: no bit can flip in it, and
 //! nothing about it has to be assumed from one cycle to the next.

@@ -235,13 +235,13 @@ limits! {
     /// Columns and rows of the image.
     image_size: Row<Pixel, 2> = [1280, 720], 64..=4096, "px", "own (720p)", "FUS-2a";
     /// Width and height that an object is taken to have.
-    object_size: Row<DistanceCm, 2> = [180, 150], 20..=500, "cm", "own (a car; a bus and a cyclist still match)", "FUS-2a";
+    object_size: Row<DistanceCm, 2> = [200, 200], 20..=500, "cm", "own (between a car and a bus: 67 % and 49 % of union)", "FUS-2a";
     /// Width and height that a pedestrian is taken to have.
     pedestrian_size: Row<DistanceCm, 2> = [50, 170], 20..=300, "cm", "own", "FUS-2a";
     /// Beyond this depth nothing matches: a car is 14 pixels wide.
     match_range: DistanceCm = [15000], 1000..=32767, "cm", "own", "FUS-3a";
     /// Boxes match when their intersection is more than this much of their union.
-    match_iou: Percent = [30], 5..=95, "%", "own (true sizes differ: a bus under a car's size has 33 %)", "FUS-3a";
+    match_iou: Percent = [30], 5..=95, "%", "own (true sizes differ: a bus straight ahead has 49 %)", "FUS-3a";
 
     // Braking (PHB-1, TRQ-3, E2E-2, BODY-1)
     /// Greatest total deceleration without a hazard: standing passengers.
