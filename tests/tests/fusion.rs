@@ -100,6 +100,14 @@ fn radar_and_camera_meet_at_the_time_of_the_image() {
     ] {
         assert!(matched(radar, camera));
     }
+    // In a list that mixes images the newest one gives the time: an old box elsewhere moves nothing.
+    let aside = CameraObject { pixels: PixelBox { left: 0, top: 0, width: 9, height: 9 }, ..picture(1_300, 250) };
+    for list in [[aside, picture(300, 0)], [picture(300, 0), aside]] {
+        assert!(
+            classes(&[RadarObject { closing: ClosingCmS::new(4_000), ..radar(300, 0) }], &list)
+                .contains(&Some(Class::Object))
+        );
+    }
     // 250 ms apart at 40 m/s are 10 m: taken as of one time, the boxes of 13 m and 3 m do not match.
     let fast = RadarObject { closing: ClosingCmS::new(4_000), ..radar(300, 0) };
     let old = picture(1_300, 250);
