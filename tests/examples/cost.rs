@@ -143,7 +143,7 @@ fn full_lists() -> Scene {
     let mut dice = Dice(SEED);
     while !scene.radar.is_full() {
         let near = object(2_000 + dice.half() % 4_000, 500 + dice.signed().rem_euclid(1_000));
-        assert!(scene.radar.push(RadarObject { class: dice.of(Class::ALL), ..near }).is_ok());
+        assert!(scene.radar.push(near).is_ok());
     }
     while !scene.camera.is_full() {
         let near = camera_object(2_000 + dice.half() % 4_000, 500);

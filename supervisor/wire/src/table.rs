@@ -7,8 +7,8 @@ use supervisor_core::{Cause, Channel, Millis};
 use supervisor_perceive::{MAX_CAMERA, MAX_RADAR};
 
 use crate::coding::{
-    Age, BrakingTorque, Coding, Deceleration, Measured, MeasuredSigned, ObjectClass, Pixels, Plain, Purpose, Spn,
-    SpnGear, SpnSwitch, Torque, TorqueControl,
+    Age, BrakingTorque, Coding, Deceleration, Measured, MeasuredSigned, Pixels, Plain, Purpose, Spn, SpnGear,
+    SpnSwitch, Torque, TorqueControl,
 };
 use crate::frame::{full, insert};
 use crate::list::Entry;
@@ -80,8 +80,7 @@ messages! {
     // Object lists: a list without objects is sent as index 0 of length 0.
     /// Radar object: where it is.
     14 RadarPosition("RadarPosition", 0x0CFF_1AA1, 50, Ms50, Radar(0), Profile11) {
-        Cycle: Plain(12, 2) = radar.cycle; RadarClass: ObjectClass(14, 2) = radar.object.class;
-        Index: Plain(16, 5) = radar.index; Length: Measured(21, 6) = radar.length;
+        Cycle: Plain(12, 2) = radar.cycle; Index: Plain(16, 5) = radar.index; Length: Measured(21, 6) = radar.length;
         RadarDistance: Plain(32, 16) = radar.object.distance; RadarOffset: Plain(48, 16) = radar.object.offset; }
     /// Radar object: how it moves.
     15 RadarMotion("RadarMotion", 0x0CFF_1BA1, 50, Ms50, Radar(1), Profile11) {
@@ -90,7 +89,7 @@ messages! {
         RadarClosing: Plain(48, 16) = radar.object.closing; }
     /// Camera object: what it is and how far.
     16 CameraObject("CameraObject", 0x0CFF_30E8, 50, Ms50, Camera(0), Profile11) {
-        Cycle: Plain(12, 2) = camera.cycle; CameraClass: ObjectClass(14, 2) = camera.object.class;
+        Cycle: Plain(12, 2) = camera.cycle; CameraClass: Plain(14, 2) = camera.object.class;
         Index: Plain(16, 4) = camera.index; Length: Measured(20, 5) = camera.length;
         CameraDistance: Plain(32, 16) = camera.object.distance; CameraClosing: Plain(48, 16) = camera.object.closing; }
     /// Camera object: corner of its box.

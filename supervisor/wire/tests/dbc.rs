@@ -144,7 +144,6 @@ fn expected(
         Message::RadarPosition => list(1)
             .into_iter()
             .chain([
-                ("RadarClass", label(radar.class)),
                 ("RadarDistance", number(radar.distance.raw(), 0.01)),
                 ("RadarOffset", number(radar.offset.raw(), 0.01)),
             ])

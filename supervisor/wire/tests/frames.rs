@@ -252,7 +252,7 @@ fn meaningful(signal: &SignalLayout, raw: u64) -> bool {
         "SeatSensor1" | "SeatSensor2" | "DriveStopped" | "StabilityActive" | "HandsOff" | "EPBState" | "EPBMode"
         | "CruiseSwitch" | "DriverSet" | "K1" | "K4" | "AuxiliariesStopped" => raw != 2,
         "EPSState" | "ADSState" => raw <= 3 || raw == 7,
-        "RadarClass" | "CameraClass" | "EPBRequest" | "K4Request" | "K1Request" | "XBRControlMode" => raw <= 2,
+        "CameraClass" | "EPBRequest" | "K4Request" | "K1Request" | "XBRControlMode" => raw <= 2,
         "OverrideControlMode" | "RetarderControlMode" => raw == 0 || raw == 2,
         "ControlPurpose" => raw <= 1 || raw == 31,
         "RequestedTorque" => (125..=250).contains(&raw),

@@ -193,7 +193,6 @@ impl Random {
             closing: ClosingCmS::new(self.u16().cast_signed()),
             age: Millis::new(u32::from(self.u16().min(510))),
             updates: Count::new(self.u8()),
-            class: self.one(ObjectClass::ALL),
         }
     }
     pub fn camera(&mut self) -> CameraObject {
