@@ -118,6 +118,8 @@ fn envelope(
         && (seat.leave || mitigation.three)
         && inputs.abs.is(false)
         && !must.safe_state;
+    // What helps is not taken away while it is needed.
+    let helps = response.brake != Deviation::None && (seat.leave || mitigation.three);
     let forced = if unbraked {
         Some(Reason::BrakeResponse)
     } else if response.parking && !confirmed && evidence.obliged_below(config.epb_speed) {
@@ -132,7 +134,7 @@ fn envelope(
         brake: brake.bound(&situation, evidence, inputs, ticks, config),
         torque: drive.bound(must, automated, threat, evidence, inputs, ticks, config),
         target_speed: drive.target_speed(must, automated, threat, config),
-        epb: parking.bound(seat, evidence, inputs, must.safe_state, forced, config),
+        epb: parking.bound(seat, evidence, inputs, must.safe_state, forced, helps, config),
         steering,
         k4,
         k1,

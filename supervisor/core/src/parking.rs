@@ -104,6 +104,7 @@ impl Parking {
         inputs: &Inputs,
         safe_state: bool,
         forced: Option<Reason>,
+        helps: bool,
         config: &Config,
     ) -> EpbBound {
         let switch = inputs.epb_switch.is(EpbSwitch::Apply);
@@ -124,6 +125,7 @@ impl Parking {
             !safe_state => Reason::SafeState,
             (obliged != Some(Reason::EpbApply)) => Reason::EpbApply,
             forced.is_none() => Reason::EpbApply,
+            !helps => Reason::BrakeResponse,
             !switch => Reason::DriverSwitch,
             (!self.by_leave || self.pedal == PedalChain::PressedAnew) => Reason::ParkedByLeave,
         );

@@ -91,8 +91,10 @@ impl Monitors {
         let (epb, epb_alone) = self.epb.advance(inputs.epb.known());
         let (k4, k4_alone) = self.k4.advance(inputs.k4.known());
         let (k1, k1_alone) = self.k1.advance(inputs.k1.known());
-        // A gearbox that falls to neutral by itself does not drive.
-        let gear_alone = gear_alone && matches!(inputs.gear.known(), Some(Gear::Drive | Gear::Reverse));
+        // A gearbox on its way to what was asked for may pass other gears; one that falls to neutral does not drive.
+        let gear_alone = gear_alone
+            && self.gearbox.asked.is_none()
+            && matches!(inputs.gear.known(), Some(Gear::Drive | Gear::Reverse));
         let steers_alone = inputs.eps.is(EpsState::Active) && self.weight == Percent::ZERO;
         let next = Self {
             gearbox,
@@ -249,7 +251,7 @@ impl Monitors {
             loose: self.loose && epb != Some(EpbState::Released),
             k4: self.k4.record(contact(outputs.contactors.k4)),
             k1: self.k1.record(contact(outputs.contactors.k1)),
-            brake: if emergency && !self.emergency { self.brake.restarted() } else { self.brake },
+            brake: if emergency && !self.emergency && !self.helps { self.brake.restarted() } else { self.brake },
             service: outputs.brake.total,
             total,
             emergency,
