@@ -17,6 +17,9 @@ fn unbraked_level_three() -> Bus {
     Bus::mitigating(Level::Three)
 }
 
+/// Each with the retarder torque that the cap leaves.
+const UNBRAKED: [(Make, u8); 2] = [(unbraked_leave, 100), (unbraked_level_three, 66)];
+
 fn helps(decision: &Decision) -> bool {
     decision.outputs.retarder.torque > Percent::ZERO
 }
@@ -29,7 +32,7 @@ fn full(torque: u8) -> Retarder {
 /// later, EPB-1b: the parking brake, above 1.5 km/h.
 #[test]
 fn retarder_then_parking_brake() {
-    for (make, torque) in [(unbraked_leave as Make, 100), (unbraked_level_three, 66)] {
+    for (make, torque) in UNBRAKED {
         let mut bus = make();
         assert_eq!(bus.time_until(CYCLE, 5_000, helps), Some(1_100));
         let decision = bus.last.unwrap_or_else(|| bus.clone().step());
@@ -79,7 +82,7 @@ fn weaker_demands() {
 #[test]
 fn antilock() {
     for abs in [known(true), unknown(Cause::Stale)] {
-        for make in [unbraked_leave as Make, unbraked_level_three] {
+        for (make, _) in UNBRAKED {
             let mut bus = make();
             bus.inputs.abs = abs;
             bus.run_with(5_000, CYCLE, |decision| {
@@ -114,7 +117,7 @@ fn safe_state() {
 /// RSP-1m: EBS red calls the retarder in the same cycle, and the parking brake with the first confirmed shortfall.
 #[test]
 fn ebs_red() {
-    for (make, torque) in [(unbraked_leave as Make, 100), (unbraked_level_three, 66)] {
+    for (make, torque) in UNBRAKED {
         let mut bus = make();
         bus.inputs.ebs_red = known(true);
         assert_eq!(bus.step().outputs.retarder, full(torque));

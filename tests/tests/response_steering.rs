@@ -55,7 +55,7 @@ fn response_in_time() {
         let mut bus = told(30);
         let mut seen = false;
         bus.run_with(cycles * CYCLE, CYCLE, |decision| {
-            seen |= decision.status.faults.contains(Faults::STEERING_RESPONSE)
+            seen |= decision.status.faults.contains(Faults::STEERING_RESPONSE);
         });
         assert_eq!(seen, expected, "{cycles} cycles");
     }
