@@ -74,7 +74,7 @@ impl Cycle<'_> {
         implies(self.releases(), sits(self.inputs) && self.new.seat.occupied.reached(self.config.seat_confirm))
     }
 
-    /// SEAT-5: what *confirmed* rests on: the timer counts no more than the time that passed with both sensors known
+    /// SEAT-0a: what *confirmed* rests on: the timer counts no more than the time that passed with both sensors known
     /// occupied in this cycle and the one before, and is lost at once on anything else.
     #[must_use]
     pub fn seat_5_confirmation_counts_real_time(&self) -> bool {
@@ -87,7 +87,7 @@ impl Cycle<'_> {
             && implies(!self.old.clock.started, counted == 0)
     }
 
-    /// SEAT-5b, SEAT-5c: after parked by leave, release also needs K1 and K4 closed, a gear other than N, and the
+    /// SEAT-5b to SEAT-5d: after parked by leave, release also needs K1 and K4 closed, a gear other than N, and the
     /// accelerator pressed after it was seen released under those conditions.
     #[must_use]
     pub fn seat_5_release_after_leave_needs_all(&self) -> bool {
@@ -103,7 +103,7 @@ impl Cycle<'_> {
         implies(self.releases() && self.old.parking.by_leave, ready && pressed && before)
     }
 
-    /// SEAT-5c: the chain says *released* only in a cycle in which the accelerator is known released.
+    /// SEAT-5d: the chain says *released* only in a cycle in which the accelerator is known released.
     #[must_use]
     pub fn seat_5_pedal_chain_is_honest(&self) -> bool {
         let released = self
@@ -116,7 +116,7 @@ impl Cycle<'_> {
             && implies(new == PedalChain::PressedAnew, old != PedalChain::Waiting)
     }
 
-    /// SEAT-4: leave below 1.5 km/h with the brake not confirmed: apply, and the latch is set.
+    /// SEAT-4a, b, d: leave below 1.5 km/h with the brake not confirmed: apply, and the latch is set.
     #[must_use]
     pub fn seat_4_apply_in_leave(&self) -> bool {
         let Some((low, high)) = self.speeds() else { return true };
@@ -128,27 +128,27 @@ impl Cycle<'_> {
             && implies(due && !applied, self.outputs.epb.request == EpbRequest::Apply)
     }
 
-    /// SEAT-4: the latch is cleared by nothing in `decide`; only [`record`](supervisor_core::record()) of a release clears it.
+    /// SEAT-4e: the latch is cleared by nothing in `decide`; only [`record`](supervisor_core::record()) of a release clears it.
     #[must_use]
     pub fn seat_4_latch_holds(&self) -> bool {
         implies(self.old.parking.by_leave, self.new.parking.by_leave)
     }
 
-    /// SEAT-7: K1 is never commanded open before K4 is confirmed open and drive and auxiliaries have stopped.
+    /// SEAT-7f, g, HV-1b, HV-1c: K1 is never commanded open before K4 is confirmed open and drive and auxiliaries have stopped.
     #[must_use]
     pub fn seat_7_k1_after_k4(&self) -> bool {
         let opens = self.outputs.contactors.k1 == ContactorRequest::Open;
         implies(opens, self.inputs.k4.is(Contact::Open) && self.loads_stopped() && self.standstill())
     }
 
-    /// SEAT-7, HV-1: K4 opens only at standstill with no drive torque, executed or sent.
+    /// SEAT-7b, d, HV-1a, HV-1c: K4 opens only at standstill with no drive torque, executed or sent.
     #[must_use]
     pub fn hv_1_k4_opens_without_load(&self) -> bool {
         let opens = self.outputs.contactors.k4 == ContactorRequest::Open;
         implies(opens, self.standstill() && self.torque_stopped() && self.outputs.drive.torque == Percent::ZERO)
     }
 
-    /// SEAT-7: ten minutes parked by leave with the guards kept: K4 is commanded open, whatever the controller says.
+    /// SEAT-7a: ten minutes parked by leave with the guards kept: K4 is commanded open, whatever the controller says.
     #[must_use]
     pub fn seat_7_shutdown_happens(&self) -> bool {
         let due = self.old.high_voltage.stage == Stage::Up
@@ -162,7 +162,7 @@ impl Cycle<'_> {
         implies(due, self.outputs.contactors.k4 == ContactorRequest::Open)
     }
 
-    /// SEAT-7: in the second stage K1 is commanded open as soon as K4 and the loads are confirmed.
+    /// SEAT-7e: in the second stage K1 is commanded open as soon as K4 and the loads are confirmed.
     #[must_use]
     pub fn seat_7_k1_follows(&self) -> bool {
         let due = self.new.high_voltage.stage == Stage::OpeningK1
@@ -173,7 +173,7 @@ impl Cycle<'_> {
         implies(due, self.outputs.contactors.k1 == ContactorRequest::Open)
     }
 
-    /// SEAT-7: once K4 is commanded the sequence is committed: it ends in *down* only.
+    /// SEAT-7k: once K4 is commanded the sequence is committed: it ends in *down* only.
     #[must_use]
     pub fn seat_7_committed(&self) -> bool {
         let (old, new) = (self.old.high_voltage.stage, self.new.high_voltage.stage);
@@ -188,7 +188,7 @@ impl Cycle<'_> {
         }
     }
 
-    /// SEAT-7, SEAT-11: the ten minutes count no more than real time, and only with the brake known applied.
+    /// SEAT-7a, SEAT-11a to SEAT-11c: the ten minutes count no more than real time, and only with the brake known applied.
     #[must_use]
     pub fn seat_11_ten_minutes_are_real(&self) -> bool {
         let (old, new) = (self.old.high_voltage.parked, self.new.high_voltage.parked);
@@ -199,7 +199,7 @@ impl Cycle<'_> {
             && implies(!self.new.parking.by_leave, new == Timer::STOPPED)
     }
 
-    /// SEAT-8, HV-1: a contactor closes only after the driver's restart, K1 before K4.
+    /// SEAT-8a, c, HV-1d: a contactor closes only after the driver's restart, K1 before K4.
     #[must_use]
     pub fn seat_8_close_needs_restart(&self) -> bool {
         let closes = |request| request == ContactorRequest::Close;
@@ -210,7 +210,7 @@ impl Cycle<'_> {
             && implies(closes(out.k1), self.inputs.k4.is(Contact::Open))
     }
 
-    /// SEAT-8: the restart goes *idle*, *Off seen*, *started*, each step on its own evidence, and is lost with the seat.
+    /// SEAT-8a, b: the restart goes *idle*, *Off seen*, *started*, each step on its own evidence, and is lost with the seat.
     #[must_use]
     pub fn seat_8_restart_in_order(&self) -> bool {
         let (old, new) = (self.old.high_voltage.restart, self.new.high_voltage.restart);
@@ -224,14 +224,14 @@ impl Cycle<'_> {
             && implies(new == Restart::Started && old != Restart::Started, old == Restart::OffSeen && edge)
     }
 
-    /// SEAT-2, MIT-5, SELF-5: no drive torque while leave, a mitigation latch or the safe state runs.
+    /// SEAT-2a, MIT-5a, SELF-5c: no drive torque while leave, a mitigation latch or the safe state runs.
     #[must_use]
     pub fn no_torque_under_obligation(&self) -> bool {
         let obliged = self.new.seat.leave || self.new.mitigation.running() || self.new.is_safe_state();
         implies(obliged, self.outputs.drive.torque == Percent::ZERO)
     }
 
-    /// SEAT-6: parked by leave, confirmed and nobody there: neutral goes out; and no other gear ever with an empty seat
+    /// SEAT-6a to SEAT-6c: parked by leave, confirmed and nobody there: neutral goes out; and no other gear ever with an empty seat
     /// at rest.
     #[must_use]
     pub fn seat_6_neutral(&self) -> bool {
@@ -250,7 +250,7 @@ impl Cycle<'_> {
             )
     }
 
-    /// SEAT-3, MIT-1 to MIT-3: the service brake is never below the demand of leave and of the set latches.
+    /// SEAT-3a, MIT-1b, MIT-2b, MIT-3b: the service brake is never below the demand of leave and of the set latches.
     #[must_use]
     pub fn brake_never_below_obligation(&self) -> bool {
         let [one, two, three] = self.config.level_decel.0;
@@ -265,7 +265,7 @@ impl Cycle<'_> {
             && implies(obliged, out.mode == BrakeMode::Maximum && out.priority == Priority::Highest)
     }
 
-    /// SELF-5: the safe state. Torque 0, no release, apply when slow, gear and contactors hold, flashers on.
+    /// SELF-5c, f, h: the safe state. Torque 0, no release, apply when slow, gear and contactors hold, flashers on.
     #[must_use]
     pub fn self_5_safe_state(&self) -> bool {
         let out = self.outputs;
@@ -280,7 +280,7 @@ impl Cycle<'_> {
         )
     }
 
-    /// SELF-7a, SELF-7b, SELF-7c: latched faults stay, or all go together: at standstill, parking brake applied, after
+    /// SELF-5b, SELF-7a, SELF-7b, SELF-7c: latched faults stay, or all go together: at standstill, parking brake applied, after
     /// the fault-free time, by the key seen Off before and On or Start now.
     #[must_use]
     pub fn self_7_latched(&self) -> bool {
@@ -304,13 +304,13 @@ impl Cycle<'_> {
             && implies(self.old.clock.started, counted <= passed)
     }
 
-    /// SELF-6: a cycle that did not run whole and in order leads to the safe state.
+    /// SELF-6b: a cycle that did not run whole and in order leads to the safe state.
     #[must_use]
     pub fn self_6_flow_fault_is_the_safe_state(&self) -> bool {
         implies(self.old.flow != Flow::RECORDED, self.new.is_safe_state())
     }
 
-    /// SELF-7: with a contactor fault latched nothing closes.
+    /// SELF-7a: with a contactor fault latched nothing closes.
     #[must_use]
     pub fn self_7_contactor_fault_closes_nothing(&self) -> bool {
         let out = &self.outputs.contactors;
@@ -366,7 +366,7 @@ impl Cycle<'_> {
     }
 }
 
-/// SELF-2 soundness of the service brake: never below the obligation, never above the cap; the electric part within
+/// SELF-2a: soundness of the service brake: never below the obligation, never above the cap; the electric part within
 /// its limit and within the total; an obligation carries its own mode and priority.
 #[must_use]
 pub fn self_2_brake_sound(envelope: &Envelope, out: &ServiceBrake) -> bool {
@@ -379,7 +379,7 @@ pub fn self_2_brake_sound(envelope: &Envelope, out: &ServiceBrake) -> bool {
         && implies(obliged, out.mode == BrakeMode::Maximum && out.priority == Priority::Highest)
 }
 
-/// SELF-2 soundness of the retarder: with the service brake it stays below the cap.
+/// SELF-2a: soundness of the retarder: with the service brake it stays below the cap.
 #[must_use]
 pub fn self_2_retarder_sound(envelope: &Envelope, outputs: &Outputs) -> bool {
     let bound = &envelope.brake;
@@ -390,7 +390,7 @@ pub fn self_2_retarder_sound(envelope: &Envelope, outputs: &Outputs) -> bool {
         )
 }
 
-/// SELF-2 soundness of the drive torque beside a gear and a total deceleration: within its bound, not against the
+/// SELF-2a: soundness of the drive torque beside a gear and a total deceleration: within its bound, not against the
 /// brake but for hill-hold, and only active.
 #[must_use]
 pub fn self_2_drive_sound(
@@ -414,7 +414,7 @@ pub fn self_2_drive_sound(
         && implies(flows, !matches!(gear, GearRequest::Neutral | GearRequest::Park))
 }
 
-/// SELF-2 soundness of the steering: what acts is inside the window, the overlay and the fade.
+/// SELF-2a: soundness of the steering: what acts is inside the window, the overlay and the fade.
 #[must_use]
 pub fn self_2_steering_sound(envelope: &Envelope, out: &Steering) -> bool {
     let bound = &envelope.steering;
@@ -432,7 +432,7 @@ pub fn self_2_steering_sound(envelope: &Envelope, out: &Steering) -> bool {
         && implies(!out.enable, out.weight == Percent::ZERO)
 }
 
-/// SELF-2 soundness of the contactors.
+/// SELF-2a: soundness of the contactors.
 #[must_use]
 pub fn self_2_contactors_sound(envelope: &Envelope, out: &Contactors) -> bool {
     let permitted = |request, bound: &ContactorBound| match request {
@@ -445,7 +445,7 @@ pub fn self_2_contactors_sound(envelope: &Envelope, out: &Contactors) -> bool {
         && implies(envelope.k1.obliged, out.k1 == ContactorRequest::Open)
 }
 
-/// SELF-2 soundness of the parking brake: an obliged apply goes out, a release only if permitted.
+/// SELF-2a: soundness of the parking brake: an obliged apply goes out, a release only if permitted.
 #[must_use]
 pub fn self_2_epb_sound(envelope: &Envelope, out: &ParkingBrake) -> bool {
     match out.request {
@@ -455,7 +455,7 @@ pub fn self_2_epb_sound(envelope: &Envelope, out: &ParkingBrake) -> bool {
     }
 }
 
-/// SELF-2 soundness of the gear.
+/// SELF-2a: soundness of the gear.
 #[must_use]
 pub fn self_2_gear_sound(envelope: &Envelope, out: GearRequest) -> bool {
     let bound = &envelope.gear;
@@ -469,7 +469,7 @@ pub fn self_2_gear_sound(envelope: &Envelope, out: GearRequest) -> bool {
     permitted && implies(bound.neutral, out == GearRequest::Neutral)
 }
 
-/// SELF-2 soundness of the warnings: what is obliged is on.
+/// SELF-2a: soundness of the warnings: what is obliged is on.
 #[must_use]
 pub fn self_2_warnings_sound(envelope: &Envelope, out: &Warnings) -> bool {
     let bound = &envelope.warnings;
@@ -481,7 +481,7 @@ pub fn self_2_warnings_sound(envelope: &Envelope, out: &Warnings) -> bool {
         && implies(bound.notice_lamp, out.notice_lamp)
 }
 
-/// SELF-2 soundness of the whole vector.
+/// SELF-2a: soundness of the whole vector.
 #[must_use]
 pub fn self_2_sound(envelope: &Envelope, outputs: &Outputs) -> bool {
     self_2_brake_sound(envelope, &outputs.brake)
@@ -502,7 +502,7 @@ pub fn went_unchanged<T: PartialEq + Copy>(command: Command<T>, timeout: Millis,
     command.usable(timeout).is_ok_and(|value| value == out)
 }
 
-/// SELF-2 transparency: a verdict says *pass* exactly when a usable command went out unchanged.
+/// SELF-2b: transparency: a verdict says *pass* exactly when a usable command went out unchanged.
 #[must_use]
 pub fn self_2_transparent(envelope: &Envelope, commands: &Commands, outputs: &Outputs, verdicts: &Verdicts) -> bool {
     let Envelope { timeouts, .. } = envelope;
@@ -521,7 +521,7 @@ pub fn self_2_transparent(envelope: &Envelope, commands: &Commands, outputs: &Ou
         && same(Channel::Mode, went_unchanged(commands.mode, timeouts.ms200, outputs.mode))
 }
 
-/// SELF-9: what boot may leave behind: nothing confirmed, no restart, and every record but *none* parks by leave.
+/// SELF-9c, d: what boot may leave behind: nothing confirmed, no restart, and every record but *none* parks by leave.
 #[must_use]
 pub fn self_9_boot(state: &State, record: Option<Record>) -> bool {
     let State { seat: SeatState { occupied, .. }, parking: Parking { by_leave, pedal, .. }, .. } = *state;

@@ -23,8 +23,9 @@ Examples:
   supervise limits                                   every number of the supervisor, its unit and source
   supervise config seal my.toml my.bin               seal a configuration
   supervise analysis                                 check the safety analysis
+  supervise trace --html target/trace.html           which code, proof and test belongs to which requirement
 
-Exit codes: 0 done; 1 the analysis has findings; 2 bad arguments, files, mapping or configuration;
+Exit codes: 0 done; 1 the analysis or the traceability has findings, or a harness is not proved; 2 bad arguments, files, mapping or configuration;
 3 with --fail-on-intervention, if the supervisor intervened.";
 
 const REPLAY: &str = "\
@@ -61,6 +62,41 @@ never end the replay.
 The JSON document (--json) is written while the replay goes on, one event per line; its schema is described in \
 safety-case/src/document.rs.";
 
+const TRACE: &str = "\
+Every requirement of safety-case/analysis has one id, SEAT-5a, and SEAT-5 is the group of its demands. The sources carry \
+these ids, and this command makes the table from them: requirement, code, limits, proofs, tests. Nothing is kept by hand.
+
+Where an id is a tag:
+  /// SEAT-5a: never ...        code in supervisor: at the start of any comment of a function or constant,
+  // SEAT-5a, b: ...            or alone in parentheses: (SEAT-5a, MIT-4)
+  ..., \"own\", \"SEAT-5a\";     a row of limits!: the requirement column
+  /// SEAT-5a: never ...        a property in proofs/src/properties; a harness names its demands in proofs/harnesses.toml
+  /// SEAT-5a to SEAT-5d: ...   a test: at the start of its doc comment
+  # SEAT-5a: ...               a step of .ci/run: a comment below `step`
+Code may name a group; it then stands for each demand of the group, as long as no code names one of them. Tests, \
+properties, limits and harnesses name demands. An id anywhere else is a mention: it must exist, and counts for nothing.
+
+Findings, each with file and line:
+  NoCode, NoEvidence   a requirement without code; without test, check or recorded proof
+  UnknownId            a tag or mention of what nothing defines
+  BrokenRange          \"SEAT-5d to SEAT-5a\"
+  Coarse               a group where a demand is meant
+  UntaggedTest         a test in tests or supervisor/*/tests that belongs to no requirement
+  NoHarness            a listed harness without function
+  Idle                 an exception that nothing needs
+Exceptions stand with their reason in safety-case/analysis/trace.toml, and as without_code at a requirement. \
+A proof that is planned and not recorded as proved is counted and shown, and is no finding. A tag says that something \
+belongs to a requirement; whether it does what is demanded, only its test or proof shows.
+
+Examples:
+  supervise trace                        findings and figures
+  supervise trace SEAT-5 MIT-4d          everything that carries these
+  supervise trace --html target/trace.html --json target/trace.json
+
+The JSON document is described in safety-case/src/trace/json.rs.
+
+Exit codes: 0 no findings; 1 findings; 2 something cannot be read or written, or no such id.";
+
 /// The program.
 #[derive(Debug, Parser)]
 #[command(name = "supervise", version, about = "Replays drives through the bus safety supervisor", long_about = ABOUT, after_help = EXAMPLES)]
@@ -90,6 +126,9 @@ pub enum Command {
     /// stale; what was never run is shown as such. Without cargo kani it runs nothing, shows the committed record,
     /// and exits with 1 (with 0 by --check, if nothing is stale).
     Prove(Prove),
+    /// Trace every requirement to its code, limits, proofs and tests, by the ids in the sources
+    #[command(long_about = TRACE)]
+    Trace(TraceArgs),
 }
 
 /// Arguments of `replay`.
@@ -218,6 +257,23 @@ pub struct AnalysisArgs {
     /// The folder; without it, the one of this project
     #[arg(value_name = "FOLDER")]
     pub folder: Option<PathBuf>,
+}
+
+/// Arguments of `trace`.
+#[derive(Debug, Args)]
+pub struct TraceArgs {
+    /// Show only these demands or groups, in full
+    #[arg(value_name = "ID")]
+    pub ids: Vec<String>,
+    /// The root of the project; without it, this project
+    #[arg(long, value_name = "FOLDER")]
+    pub root: Option<PathBuf>,
+    /// Write the table as JSON
+    #[arg(long, value_name = "FILE")]
+    pub json: Option<PathBuf>,
+    /// Write the table as one page that works offline
+    #[arg(long, value_name = "FILE")]
+    pub html: Option<PathBuf>,
 }
 
 #[cfg(test)]

@@ -2,6 +2,8 @@
 
 use supervisor::{Commands, Decision, Inputs, Scene, Threat};
 
+use crate::troubles::Active;
+
 /// The period of the supervisor in microseconds.
 pub const CYCLE: u64 = 10_000;
 
@@ -20,4 +22,6 @@ pub struct Cycle<'a> {
     pub commands: &'a Commands,
     /// What was decided.
     pub decision: &'a Decision,
+    /// The trouble codes that are active after it.
+    pub troubles: Active,
 }

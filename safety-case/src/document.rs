@@ -10,6 +10,8 @@
 //!  "value":0.0,"limit":1.0,"margin":-1.0,"raw":{"value":0,"limit":2048,"margin":-2048}},
 //! {"type":"state","t":2.21,"until":3.19,"cycles":98,"group":"state","lane":"level","code":1,"text":"level 1"},
 //! {"type":"intervention","t":2.21,"until":4.9,"cycles":269,"channel":"service_brake","reasons":["Mitigation"]},
+//! {"type":"trouble","t":2.5,"until":14.0,"healed":true,"fault":"SPEED_UNKNOWN","spn":84,"fmi":2,"count":1,
+//!  "lamp":"amber warning","ads_code":7,"system":"Speed","driver":"…","why":"…"},
 //! {"type":"clock","t":9.0,"place":"a.log:17","kind":"backwards"}
 //! ],
 //! "summary":{…}}
@@ -21,6 +23,8 @@
 //!   `limit`, `margin` are numbers in `unit`, or, with `"unit":"name"`, the names of what was asked for and given;
 //!   they are missing where the verdict has none. `fields` names what was changed in a command of many fields,
 //!   `rejection` why its frame was refused. `raw` is what the core says, in the bits of the field.
+//! - A trouble is a stretch in which a code of DM1 was active, after its debounce and until it healed or the log ended;
+//!   `summary.troubles` has one row per code, from its first time to the end of its last.
 //! - An intervention is a stretch of more than three cycles of one channel without a pass; see `stretches.rs`.
 //! - Fields may be added in the same version; none is renamed or removed.
 
@@ -36,6 +40,7 @@ use crate::physical::{Quantity, physical, quantity};
 use crate::road::snake;
 use crate::runs::{Run, Sink};
 use crate::stretches::Stretch;
+use crate::troubles::Episode;
 use crate::words;
 
 /// Name of the schema.
@@ -82,6 +87,11 @@ impl<W: Write> Document<W> {
     /// The clock of the log leapt.
     pub fn clock(&mut self, at: u64, place: &str, kind: &str) {
         self.write(&json!({"type": "clock", "t": seconds(at), "place": place, "kind": kind}));
+    }
+
+    /// A trouble code was active.
+    pub fn trouble(&mut self, episode: &Episode) {
+        self.write(&episode.json());
     }
 
     /// The supervisor intervened.

@@ -3,7 +3,7 @@
 //!
 //! Where to look: a line of a log, `candump`; how frames become inputs, `road`; when to step, `grid.rs`; the loop,
 //! `replay.rs`; what is worth seeing over time, `lanes` and `runs.rs`; what people read, `timeline.rs`,
-//! `summary.rs`, `document.rs` (JSON), `page` (HTML).
+//! `summary.rs`, `document.rs` (JSON), `page` (HTML). Which code and test belongs to which requirement, `trace`.
 #![forbid(unsafe_code)]
 
 pub mod analysis;
@@ -28,4 +28,6 @@ pub mod runs;
 pub mod stretches;
 pub mod summary;
 pub mod timeline;
+pub mod trace;
+pub mod troubles;
 pub mod words;

@@ -21,6 +21,7 @@ use crate::runs::{Run, Sink, Tracker};
 use crate::stretches::{Stretch, Stretches};
 use crate::summary::Summary;
 use crate::timeline::{Entry, Timeline};
+use crate::troubles::{Episode, Troubles};
 
 /// What to replay, and what to write.
 #[derive(Clone, Debug)]
@@ -115,6 +116,8 @@ pub struct Report {
     pub notes: Notes,
     /// The timeline, and how many entries it left out.
     pub timeline: (Vec<Entry>, u64),
+    /// The trouble codes that were ever active.
+    pub troubles: Vec<Value>,
 }
 
 impl Report {
@@ -128,6 +131,7 @@ impl Report {
             "first_stamp": seconds(self.first_stamp),
             "interventions": self.summary.interventions(), "brief": self.summary.brief(),
             "longest": self.summary.longest(), "verdicts": self.summary.counts(), "notes": self.notes.lines(),
+            "troubles": self.troubles,
         })
     }
 
@@ -172,6 +176,13 @@ impl Sinks {
             document.intervention(stretch);
         }
     }
+
+    fn trouble(&mut self, episode: &Episode) {
+        self.timeline.span(episode.from, episode.to, "trouble code (DM1)", episode.text());
+        if let Some(document) = &mut self.document {
+            document.trouble(episode);
+        }
+    }
 }
 
 struct Engine {
@@ -180,6 +191,7 @@ struct Engine {
     road: Road,
     grid: Grid,
     tracker: Tracker,
+    troubles: Troubles,
     sinks: Sinks,
     cycles: u64,
     digest: Option<Digest>,
@@ -191,7 +203,11 @@ impl Engine {
         let (inputs, scene, commands) = self.road.sample(now);
         let decision = self.supervisor.step(now, inputs, scene, commands);
         let threat = perceive(scene, &self.config);
-        let cycle = Cycle { at: step.at, inputs, scene, threat: &threat, commands, decision: &decision };
+        for episode in self.troubles.cycle(step.at, now, &decision) {
+            self.sinks.trouble(&episode);
+        }
+        let troubles = self.troubles.active();
+        let cycle = Cycle { at: step.at, inputs, scene, threat: &threat, commands, decision: &decision, troubles };
         self.tracker.cycle(&cycle, &mut self.sinks);
         if let Some(digest) = &mut self.digest {
             digest.add(&decision.verdicts);
@@ -285,6 +301,7 @@ pub fn run(request: &Request) -> Result<Report, Failure> {
         road,
         grid: Grid::default(),
         tracker: Tracker::default(),
+        troubles: Troubles::default(),
         sinks,
         cycles: 0,
         digest,
@@ -305,8 +322,11 @@ pub fn run(request: &Request) -> Result<Report, Failure> {
     if let Some(step) = engine.grid.close() {
         engine.step(step);
     }
-    let Engine { mut tracker, mut sinks, grid, cycles, digest, .. } = engine;
+    let Engine { mut tracker, mut troubles, mut sinks, grid, cycles, digest, .. } = engine;
     tracker.finish(&mut sinks);
+    for episode in troubles.finish() {
+        sinks.trouble(&episode);
+    }
     for stretch in std::mem::take(&mut sinks.stretches).finish() {
         sinks.stretch(&stretch);
     }
@@ -322,7 +342,9 @@ pub fn run(request: &Request) -> Result<Report, Failure> {
     let timeline = timeline.finish();
     let span = (begin, grid.axis());
     let digest = digest.map(Digest::value);
-    let report = Report { mapping, frames, taken, cycles, span, first_stamp, took, summary, digest, notes, timeline };
+    let troubles = troubles.rows();
+    let report =
+        Report { mapping, frames, taken, cycles, span, first_stamp, took, summary, digest, notes, timeline, troubles };
     if let (Some(document), Some(file)) = (document, &request.json) {
         let written = document.finish(&report.summary_json());
         written.map_err(|reason| Failure::Write { file: file.clone(), reason })?;

@@ -62,7 +62,12 @@ impl Timeline {
 
     /// An event without a lane.
     pub fn event(&mut self, at: u64, what: &str, text: String) {
-        self.keep(Entry { from: at, to: at, lane: 0, what: what.to_owned(), text, times: 1, act: false, crowd: "" });
+        self.span(at, at, what, text);
+    }
+
+    /// Something without a lane that lasted.
+    pub fn span(&mut self, from: u64, to: u64, what: &str, text: String) {
+        self.keep(Entry { from, to, lane: 0, what: what.to_owned(), text, times: 1, act: false, crowd: "" });
     }
 
     fn keep(&mut self, entry: Entry) {
@@ -136,6 +141,8 @@ fn told(run: &Run) -> Option<(String, i64)> {
             Tone::Good | Tone::Note if cause(run.code).is_none() => text(),
             Tone::Idle | Tone::Void | Tone::Good | Tone::Note => None,
         },
+        // Its episodes are told one by one.
+        Group::Fault if lane.key == "dm1" => None,
         Group::Warning | Group::Fault => {
             (run.code != 0).then(|| (if lane.group == Group::Fault { "fault" } else { "on" }.to_owned(), 0))
         }

@@ -39,7 +39,7 @@ impl Supervisor {
         Self { image: StateImage::encode(&State::boot(cause, record)), sealed }
     }
 
-    /// One cycle, every 10 ms: perceive, decide, vet.
+    /// RXN-1a: one cycle, every 10 ms: perceive, decide, vet.
     ///
     /// `now` is in milliseconds and may wrap. Total: any values give a decision.
     #[must_use]
@@ -49,7 +49,7 @@ impl Supervisor {
         step(&mut self.image, &self.sealed, flow, now, inputs, &threat, commands)
     }
 
-    /// The configuration. One that has changed since it was checked leads to the safe state in
+    /// SELF-4e: the configuration, to be read only. One that has changed since it was checked leads to the safe state in
     /// [`step`](Self::step); the defaults stand in for it.
     #[must_use]
     pub fn config(&self) -> &Config {

@@ -131,7 +131,7 @@ fn a_boot_without_any_input_permits_nothing() {
 
 // Resets at every stage.
 
-/// SELF-9a, SEAT-1h, SEAT-3: a reset in leave goes on in leave, in its first cycle, with every cause.
+/// SELF-9a, SEAT-1h, SEAT-3a: a reset in leave goes on in leave, in its first cycle, with every cause.
 #[test]
 fn a_reset_in_leave_goes_on_in_leave() {
     for cause in ResetCause::ALL {
@@ -238,7 +238,7 @@ fn a_reset_in_the_middle_of_the_order_starts_it_again() {
     assert!(!closes(&bus.run_for(3_000)), "Start is no edge");
 }
 
-/// SELF-9: a reset while driving with the driver seated asks for nothing: no brake, no leave, and torque comes back.
+/// SELF-9a: a reset while driving with the driver seated asks for nothing: no brake, no leave, and torque comes back.
 #[test]
 fn a_reset_while_driving_asks_for_nothing() {
     for cause in ResetCause::ALL {

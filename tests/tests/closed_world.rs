@@ -333,7 +333,7 @@ fn every_field_has_a_row() {
 /// Sets the command of a channel to neutral: absent (0), held for so long (1), or rejected.
 type SetCommand = fn(&mut Bus, u8, u32);
 
-/// CMD-2, E2E-2, BODY-1e: every channel refuses an absent, a rejected and a too old command, and passes the same one in time.
+/// CMD-2d, CMD-2e, E2E-2a to E2E-2c, E2E-2g to E2E-2j, BODY-1e: every channel refuses an absent, a rejected and a too old command, and passes the same one in time.
 #[test]
 fn every_channel_refuses_absent_rejected_and_too_old_commands() {
     // Time-out and how to set the channel's command to "neutral, with this wrapper".

@@ -173,7 +173,7 @@ fn a_camera_object_alone_obliges_nothing() {
     assert_eq!((decision.status.level, decision.outputs.brake.total), (Level::None, ms2(0)));
 }
 
-/// MIT-7, RULE-1b: an object older than 250 ms obliges nothing, and perception is not known.
+/// RULE-1a, RULE-1b: an object older than 250 ms obliges nothing, and perception is not known.
 #[test]
 fn an_old_object_obliges_nothing() {
     for (age, level) in [(0, Level::Three), (250, Level::Three), (251, Level::None), (u32::MAX, Level::None)] {

@@ -351,7 +351,7 @@ fn neither_a_level_nor_leave_is_overridden() {
     assert_eq!(bus.run_for(500).outputs.brake.total, ms2(195));
 }
 
-/// TRQ-4: an unknown accelerator keeps no override: the mode ends (MODE-1b) and no torque goes out.
+/// MODE-1b, TRQ-1b: an unknown accelerator keeps no override: the mode ends and no torque goes out.
 #[test]
 fn an_unknown_accelerator_ends_the_mode() {
     let mut bus = cruising(10);

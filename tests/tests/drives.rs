@@ -58,7 +58,7 @@ fn manifest_of_all() -> Result<String, Box<dyn Error>> {
     Ok(manifest(&drives))
 }
 
-/// SELF-11, SELF-2: what a correct controller asks for passes.
+/// SELF-11a to SELF-11k, SELF-2b: what a correct controller asks for passes.
 #[test]
 fn a_correct_controller_meets_no_intervention() -> Outcome {
     for (scenario, driven) in drives()?.iter().filter(|(scenario, _)| scenario.misdeeds.is_empty()) {
@@ -67,6 +67,7 @@ fn a_correct_controller_meets_no_intervention() -> Outcome {
     Ok(())
 }
 
+/// CMD-5b: every misdeed meets the verdicts that the catalogue names for it.
 #[test]
 fn every_misdeed_is_refused_for_the_named_reason() -> Outcome {
     let mut count = 0;
@@ -80,7 +81,7 @@ fn every_misdeed_is_refused_for_the_named_reason() -> Outcome {
     Ok(())
 }
 
-/// The worst a misdeed achieves: none of its values goes out while it lasts, but for the one cycle of a lost counter.
+/// SELF-2a: the worst a misdeed achieves: none of its values goes out while it lasts, but for the one cycle of a lost counter.
 #[test]
 fn no_misdeed_gets_through() -> Outcome {
     for (scenario, driven) in drives()? {
@@ -97,6 +98,7 @@ fn no_misdeed_gets_through() -> Outcome {
     Ok(())
 }
 
+/// SELF-2a: the judge of hazards finds none.
 #[test]
 fn nothing_hazardous_happens_in_any_drive() -> Outcome {
     for (scenario, driven) in drives()? {
@@ -130,7 +132,7 @@ fn without_the_supervisor_the_misdeeds_do_their_harm() -> Outcome {
     Ok(())
 }
 
-/// SELF-3: the committed log through receiver and supervisor gives the very answers of the closed loop.
+/// SELF-3a: the committed log through receiver and supervisor gives the very answers of the closed loop.
 #[test]
 fn the_committed_logs_replay_to_the_same_answers() -> Outcome {
     for (scenario, driven) in drives()? {
@@ -145,7 +147,7 @@ fn the_committed_logs_replay_to_the_same_answers() -> Outcome {
     Ok(())
 }
 
-/// Spec §9: levels never decrease while closing, rest gap > 0, for 0 to 0.7 s of brake dead time.
+/// MIT-4c: (spec §9) levels never decrease while closing, rest gap > 0, for 0 to 0.7 s of brake dead time.
 #[test]
 fn the_approach_of_s1_for_every_brake_dead_time() -> Outcome {
     for tenths in 0_u8..=7 {
@@ -174,6 +176,7 @@ fn the_approaches_begin_as_in_s1() -> Outcome {
     Ok(())
 }
 
+/// MIT-4b: the obligation alone stops the bus as the controller would.
 #[test]
 fn ignoring_the_road_changes_the_rest_gap_by_less_than_a_metre() -> Outcome {
     let gap = |name: &str| -> Result<f64, Box<dyn Error>> {
@@ -198,7 +201,7 @@ fn with_pedestrian(length_ms: u32) -> Result<[Vec<Cycle>; 2], Box<dyn Error>> {
     Ok([correct, ignoring.cycles])
 }
 
-/// MIT-3, MIT-4: level 3 at once, to standstill and 1 s more, with or without the main controller.
+/// MIT-3a, MIT-3b, MIT-4h: level 3 at once, to standstill and 1 s more, with or without the main controller.
 #[test]
 fn a_pedestrian_who_steps_out_meets_level_three() -> Outcome {
     let both = with_pedestrian(64_500)?;
@@ -219,7 +222,7 @@ fn a_pedestrian_who_steps_out_meets_level_three() -> Outcome {
     Ok(())
 }
 
-/// TRQ-2: afterwards, too, no ADAS torque drives the bus into what stands ahead; nobody touches a pedal.
+/// TRQ-2d: afterwards, too, no ADAS torque drives the bus into what stands ahead; nobody touches a pedal.
 #[test]
 fn a_pedestrian_is_not_pushed_after_level_three() -> Outcome {
     for cycles in with_pedestrian(90_000)? {
@@ -228,7 +231,7 @@ fn a_pedestrian_is_not_pushed_after_level_three() -> Outcome {
     Ok(())
 }
 
-/// S3 §2.1 to §2.6, in order and in time, whoever is at the main controller.
+/// SEAT-1a, SEAT-2a, SEAT-4a, SEAT-6a, SEAT-7a, SEAT-7e, SEAT-8a, SEAT-5d: S3 §2.1 to §2.6, in order and in time, whoever is at the main controller.
 #[test]
 fn leaving_the_seat_runs_through_every_stage_of_s3() -> Outcome {
     for name in ["seat-correct", "seat-misbehaving"] {
@@ -261,7 +264,7 @@ fn drives_on(cycles: &[Cycle], after: u32) -> bool {
     cycles.iter().any(|cycle| cycle.now_ms > after && cycle.truth.speed > kmh(20.0))
 }
 
-/// CMD: whoever is silent, tampers or repeats is disobeyed on every channel that matters, and nothing else happens.
+/// CMD-3a, E2E-2a: whoever is silent, tampers or repeats is disobeyed on every channel that matters, and nothing else happens.
 #[test]
 fn a_silent_controller_is_a_command_like_any_other() -> Outcome {
     let cycles = drive("approach-misbehaving")?;

@@ -183,7 +183,7 @@ fn a_lost_body_command_keeps_its_state() {
     assert_eq!(bus.step().outputs.body, Body::NEUTRAL);
 }
 
-/// E2E-2, CMD-3a: silence on every channel: neutral everywhere, auxiliaries on, nothing moves.
+/// CMD-3a, CMD-3b, E2E-2a to E2E-2d, E2E-2g to E2E-2i: silence on every channel: neutral everywhere, auxiliaries on, nothing moves.
 #[test]
 fn silence_on_every_channel_is_neutral_everywhere() {
     for mut bus in [Bus::driving(FAST), Bus::parked(), Bus::automated(FAST)] {

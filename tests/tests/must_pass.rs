@@ -19,7 +19,7 @@ fn assert_transparent(decision: &Decision) {
     Bus::assert_idempotent(decision);
 }
 
-/// SELF-11: an idle, correct controller passes on every channel, in every ordinary situation, for an hour.
+/// SELF-11a to SELF-11k: an idle, correct controller passes on every channel, in every ordinary situation, for an hour.
 #[test]
 fn an_idle_controller_passes_on_every_channel() {
     for mut bus in
@@ -342,7 +342,7 @@ fn a_mode_request_with_its_evidence_passes() {
     }
 }
 
-/// SELF-11, E2E-1g: frames that are held up to their time-out pass as fresh ones do.
+/// SELF-2b, E2E-1g: frames that are held up to their time-out pass as fresh ones do.
 #[test]
 fn held_frames_pass_up_to_their_time_out() {
     let mut bus = Bus::automated(kmh(10));
@@ -366,7 +366,7 @@ fn held_frames_pass_up_to_their_time_out() {
     }
 }
 
-/// SELF-11, MIT-6: an ordinary stop behind a car, 1.0 m/s² to rest 2 m behind it, is no emergency.
+/// SELF-11b, MIT-6c: an ordinary stop behind a car, 1.0 m/s² to rest 2 m behind it, is no emergency.
 #[test]
 fn an_ordinary_stop_behind_a_car_is_no_emergency() {
     let mut bus = Bus::driving(kmh(50));

@@ -35,7 +35,7 @@ fn event(bus: &mut Bus, seed: u64) {
 proptest! {
     #![proptest_config(ProptestConfig { max_shrink_iters: 2_000, failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// SELF-1a, SELF-2a, SELF-2c, SELF-2d, RULE-3c, SEAT-5a, SEAT-7f, SEAT-7g, CMD-3c, CMD-5b: random drives from every stage keep every claim
+    /// SELF-1a, SELF-2a, SELF-2c, SELF-2d, RULE-3c, SEAT-5a, SEAT-7f, SEAT-7g, CMD-3c, CMD-5a, CMD-5b: random drives from every stage keep every claim
     /// of the oracle (common/always.rs), and vetting an output again changes nothing.
     #[test]
     fn random_drives_keep_every_claim(which in 0..STARTS, events in vec(any::<u64>(), 1..60)) {
@@ -100,7 +100,7 @@ proptest! {
         assert!(!was.safe_state || is.safe_state);
     }
 
-    /// RULE-3a, SELF-2: more braking asked for is never less braking out; less torque asked for is never more out.
+    /// RULE-3a, SELF-2a: more braking asked for is never less braking out; less torque asked for is never more out.
     #[test]
     fn the_safe_direction_is_never_hindered(which in 0..STARTS, events in vec(any::<u64>(), 1..30), total in any::<u16>(), more in any::<u16>(), torque in any::<u8>(), less in any::<u8>()) {
         let mut bus = start(which);

@@ -137,7 +137,7 @@ fn k1_closes_before_k4() {
     assert!(!closes(&bus.run_for(1_000)), "HV-1d: used up: what drops out later does not close again");
 }
 
-/// SEAT-8, SEAT-9c: the supervisor itself closes nothing.
+/// HV-1d, SEAT-9c: the supervisor itself closes nothing.
 #[test]
 fn the_supervisor_itself_closes_nothing() {
     let mut bus = Bus::restarted();
@@ -147,7 +147,7 @@ fn the_supervisor_itself_closes_nothing() {
     }
 }
 
-/// SEAT-8, SEAT-5, SEAT-6: the whole way back: seat, keys, K1, K4, gear, accelerator, release, torque.
+/// SEAT-8c, SEAT-5b to SEAT-5d, SEAT-6b: the whole way back: seat, keys, K1, K4, gear, accelerator, release, torque.
 #[test]
 fn the_whole_way_back_leads_to_driving() {
     let mut bus = Bus::restarted();

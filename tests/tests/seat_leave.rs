@@ -1,6 +1,7 @@
 //! Driver out of seat: confirmed occupied, leave, return, unclear sensors (SEAT-0, SEAT-1, SEAT-9, SEAT-10).
 
 mod common;
+use common::random::*;
 use common::*;
 
 const VACANT: Signal<Seat> = known(Seat::Vacant);
@@ -393,4 +394,27 @@ fn unclear_sensors_are_reported() {
     assert_eq!(bus.step().status.faults, Faults::NONE);
     bus.vacant();
     assert_eq!(bus.step().status.faults, Faults::NONE, "an empty seat is no fault");
+}
+
+/// CMD-7b: only the two sensors confirm the seat. Whoever drives from afar, whatever every other input and every command
+/// says, an empty or unclear seat is not occupied and nothing is released.
+#[test]
+fn nobody_but_the_sensors_confirms_the_seat() {
+    let pairs: Vec<[Signal<Seat>; 2]> = unclear().into_iter().chain([[VACANT, VACANT]]).collect();
+    for which in 0..STARTS {
+        let mut dice = Dice(0x7b + u64::try_from(which).unwrap_or(0));
+        let mut bus = start(which);
+        for _ in 0..300 {
+            for _ in 0..20 {
+                change_input(&mut dice, &mut bus.inputs);
+                change_command(&mut dice, &mut bus.commands);
+            }
+            bus.inputs.ads = known(AdsState::Active);
+            bus.inputs.seat = dice.of(&pairs);
+            bus.ask_epb(EpbRequest::Release);
+            let decision = bus.step();
+            assert_ne!(decision.status.occupancy, Occupancy::Confirmed, "{:?}", bus.inputs);
+            assert_ne!(decision.outputs.epb.request, EpbRequest::Release, "{:?}", bus.inputs);
+        }
+    }
 }

@@ -74,7 +74,7 @@ fn released_after_asking(bus: &mut Bus) -> bool {
     released(&bus.step())
 }
 
-/// SEAT-5, SELF-11d: outside of parked-by-leave the confirmed seat is enough.
+/// SELF-11d, SEAT-5a: outside of parked-by-leave the confirmed seat is enough.
 #[test]
 fn an_ordinary_release_needs_the_confirmed_seat_alone() {
     let mut bus = Bus::parked();
@@ -204,7 +204,7 @@ fn a_seat_lost_for_one_cycle_starts_the_chain_again() {
     }
 }
 
-/// SEAT-5, EPB-1d: the driver's apply switch refuses a release and applies.
+/// EPB-1d, SEAT-5e: the driver's apply switch refuses a release and applies.
 #[test]
 fn the_apply_switch_wins_over_a_release() {
     for mut bus in [Bus::parked(), Bus::ready_to_release()] {

@@ -378,7 +378,7 @@ fn the_return_of_the_driver_does_not_stop_a_committed_shutdown() {
     assert_eq!(bus.step().outputs.contactors, Contactors::NEUTRAL);
 }
 
-/// SEAT-7k, SEAT-2: during a committed shutdown no torque goes out, driver confirmed or not.
+/// SEAT-7k, SEAT-7d: during a committed shutdown no torque goes out, driver confirmed or not.
 #[test]
 fn during_a_committed_shutdown_there_is_no_torque() {
     for mut bus in [Bus::opening_k4(), Bus::opening_k1(), Bus::down()] {

@@ -380,7 +380,7 @@ fn automatic_steering_needs_a_healthy_power_steering() {
     }
 }
 
-/// STR-2, RULE-1c: automatic steering needs a known angle and a known driver torque.
+/// RULE-1c: automatic steering needs a known angle and a known driver torque.
 #[test]
 fn automatic_steering_needs_its_sensors() {
     let losses: [fn(&mut Bus); 4] = [
@@ -414,7 +414,7 @@ fn in_leave_automatic_steering_continues() {
     assert_refused(&bus.step(), Channel::Steering);
 }
 
-/// STR-2, MODE-1a: without the automated mode automatic steering does not begin.
+/// MODE-1a: without the automated mode automatic steering does not begin.
 #[test]
 fn without_the_mode_automatic_steering_does_not_begin() {
     for mut bus in [Bus::driving(SLOW), Bus::leave(SLOW)] {

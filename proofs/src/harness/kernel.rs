@@ -9,7 +9,7 @@ use crate::properties::self_9_boot;
 
 /// SELF-5: what is put to rest comes back.
 #[kani::proof]
-#[kani::unwind(90)]
+#[kani::unwind(140)]
 fn self_5_state_at_rest_comes_back() {
     let state: State = kani::any();
     assert!(StateImage::encode(&state).decode() == Some(state));
@@ -17,7 +17,7 @@ fn self_5_state_at_rest_comes_back() {
 
 /// SELF-5: any single flipped bit of any intact image is detected; what is not intact does not decode.
 #[kani::proof]
-#[kani::unwind(90)]
+#[kani::unwind(140)]
 fn self_5_flipped_bit_is_detected() {
     let image: StateImage = kani::any();
     let (index, bit): (usize, u32) = (kani::any(), kani::any());

@@ -241,6 +241,8 @@ pub struct Requirement {
     pub readings: Vec<String>,
     /// Why, for own numbers and decided readings.
     pub reason: Option<String>,
+    /// Why no single item of code implements it, where that is so (`supervise trace`).
+    pub without_code: Option<String>,
 }
 
 /// An assumption of use.

@@ -6,6 +6,7 @@ mod drives;
 mod limits;
 mod prove;
 mod replay;
+mod trace;
 
 use std::fmt::Display;
 use std::io::{self, Write};
@@ -13,7 +14,7 @@ use std::process::ExitCode;
 
 use crate::cli::{Cli, Command};
 
-/// The analysis has findings, or a harness is not proved.
+/// The analysis or the traceability has findings, or a harness is not proved.
 pub const FINDINGS: u8 = 1;
 /// Bad arguments, files, mapping or configuration.
 pub const BAD: u8 = 2;
@@ -33,6 +34,7 @@ pub fn run(cli: &Cli) -> ExitCode {
         Some(Command::Config(command)) => config::run(command),
         Some(Command::Analysis(arguments)) => analysis::run(arguments),
         Some(Command::Prove(arguments)) => prove::run(arguments),
+        Some(Command::Trace(arguments)) => trace::run(arguments),
     };
     match outcome {
         Ok(code) => ExitCode::from(code),

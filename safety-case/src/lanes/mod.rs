@@ -17,7 +17,7 @@ use crate::words;
 use text::{
     NO_REQUEST, UNKNOWN, alarm, contact, contactor, driving_mode, epb, epb_request, exit, fault_tone, gear,
     gear_request, input_tone, key, level, lost_at_zero, mode, note, number_text, occupancy, occupancy_tone, on,
-    present, rising, seat, stage, state_tone, verdict_text, verdict_tone, yes,
+    present, rising, seat, stage, state_tone, trouble_tone, troubles, verdict_text, verdict_tone, yes,
 };
 
 pub use text::{cause, verdict};
@@ -105,6 +105,7 @@ impl Lane {
         match (self.channel, verdict(code)) {
             (Some(_), (Kind::Pass, _)) => Cow::Borrowed(""),
             (Some(_), (_, reason)) => words::reason(reason).0.into(),
+            (None, _) if self.key == "dm1" => (self.text)(code),
             (None, _) if self.group == Group::Fault || self.group == Group::Warning => Cow::Borrowed(""),
             (None, _) if cause(code).is_none() && (self.tone)(code) == Tone::Good && self.group == Group::Input => {
                 (self.text)(code).replace("known", "").into()
@@ -206,6 +207,9 @@ lanes! {
         "radar", "radar", present, lost_at_zero, |c| c.scene.radar_known.into();
         "camera", "camera", present, lost_at_zero, |c| c.scene.camera_known.into();
     }
+    Fault {
+        "dm1", "trouble codes (DM1)", troubles, trouble_tone, |c| c.troubles.0;
+    }
 }
 
 /// How many lanes there are.
@@ -270,6 +274,7 @@ pub fn snapshot(cycle: &Cycle<'_>) -> [u16; COUNT] {
 mod tests {
     use super::{CHANNELS, COUNT, LANES, snapshot};
     use crate::cycle::Cycle;
+    use crate::troubles::Active;
     use supervisor::{Channel, Commands, Inputs, Millis, Record, ResetCause, Scene, Sealed, Supervisor, Threat};
 
     #[test]
@@ -289,6 +294,7 @@ mod tests {
             threat: &Threat::UNKNOWN,
             commands: &Commands::ABSENT,
             decision: &decision,
+            troubles: Active::default(),
         };
         for (lane, code) in LANES.iter().zip(snapshot(&cycle)) {
             assert!(!lane.says(code).is_empty() && !lane.says(code).starts_with("code"), "{}", lane.key);

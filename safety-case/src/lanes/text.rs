@@ -7,7 +7,10 @@ use supervisor::{
     Kind, Level, Mode, Occupancy, Reason, Seat, Stage,
 };
 
+use supervisor::report::Lamp;
+
 use super::Tone;
+use crate::troubles::{Active, lamp};
 use crate::words;
 
 /// Codes from here on are causes of "unknown".
@@ -149,6 +152,23 @@ pub(super) fn occupancy_tone(code: u16) -> Tone {
 }
 pub(super) fn state_tone(code: u16) -> Tone {
     if code == 0 { Tone::Note } else { input_tone(code) }
+}
+/// "3 active, red stop lamp".
+pub(super) fn troubles(code: u16) -> Cow<'static, str> {
+    let active = Active(code);
+    match (active.count(), active.lamp()) {
+        (0, _) => "none active".into(),
+        (count, Lamp::None) => format!("{count} active, no lamp").into(),
+        (count, lit) => format!("{count} active, {} lamp", lamp(lit)).into(),
+    }
+}
+pub(super) fn trouble_tone(code: u16) -> Tone {
+    match Active(code).lamp() {
+        Lamp::None if code == 0 => Tone::Idle,
+        Lamp::None => Tone::Note,
+        Lamp::AmberWarning => Tone::Caution,
+        Lamp::RedStop => Tone::Alarm,
+    }
 }
 pub(super) fn fault_tone(code: u16) -> Tone {
     if code == 0 { Tone::Idle } else { Tone::Caution }

@@ -133,6 +133,7 @@ pub fn page(figure: &Figure, picture: &Picture<'_>) -> Result<String, minijinja:
         "rows": rows,
         "further": further,
         "notes": report.notes.lines().into_iter().take(ODD).collect::<Vec<_>>(),
+        "troubles": report.troubles,
         "never": figure.never,
         "steady": figure.steady,
         "silent": !report.summary.commanded(),

@@ -4,3 +4,4 @@ mod commands;
 mod common;
 mod replay;
 mod robust;
+mod trace;

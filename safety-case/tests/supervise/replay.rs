@@ -334,3 +334,36 @@ fn the_recorded_bus_shows_its_silence_and_its_return() -> Outcome {
     }
     Ok(())
 }
+
+/// RPT-1c: a drive shows its trouble codes in text, JSON and page: its controller falls silent three times.
+#[test]
+fn trouble_codes_are_shown_in_text_json_and_page() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let log = drive("approach-misbehaving");
+    let ran = supervise_in(folder.path(), &["replay", &log, "--json", "t.json", "--html", "t.html"])?;
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    let line = "trouble code (DM1)      SPN 516432 FMI 9 ×1, amber warning: No drive. The main controller's drive command \
+                is missing or damaged. (healed) [RPT-1]";
+    assert!(ran.out.contains(line), "{}", ran.out);
+    let json: Value = serde_json::from_slice(&std::fs::read(folder.path().join("t.json"))?)?;
+    let events = json["events"].as_array().ok_or("no events")?;
+    let troubles: Vec<_> = events.iter().filter(|event| event["type"] == "trouble").collect();
+    let brief: Vec<_> = troubles.iter().map(|each| (&each["spn"], &each["fmi"], &each["count"])).collect();
+    let (nine, one) = (Value::from(9), Value::from(1));
+    assert_eq!(brief, [(&516_432.into(), &nine, &one), (&516_448.into(), &nine, &one)]);
+    // The code lags the fault: by 0.5 s when it comes, by 10 s when it goes. Three bursts are one occurrence.
+    let missing = |event: &&Value| event["lane"] == "fault_drive_command_lost" && event["code"] == 1;
+    let bursts: Vec<_> = events.iter().filter(missing).filter(|event| event["cycles"].as_u64() >= Some(50)).collect();
+    let [first, .., last] = bursts.as_slice() else { return Err("no bursts".into()) };
+    let lag = |key: &str, fault: &Value| Some(troubles.first()?[key].as_f64()? - fault[key].as_f64()?);
+    assert!(lag("t", first).is_some_and(|lag| (lag - 0.5).abs() < 0.001), "{first}");
+    assert!(lag("until", last).is_some_and(|lag| (lag - 10.0).abs() < 0.001), "{last}");
+    assert_eq!(json["summary"]["troubles"].as_array().map(Vec::len), Some(2));
+    let page = std::fs::read_to_string(folder.path().join("t.html"))?;
+    assert!(page.contains("<h2>Trouble codes (DM1)</h2>") && page.contains("2 active, amber warning lamp"));
+    // A drive without any has no such section.
+    let ran = supervise_in(folder.path(), &["replay", &drive("approach-correct"), "-q", "--html", "c.html"])?;
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    assert!(!std::fs::read_to_string(folder.path().join("c.html"))?.contains("Trouble codes"));
+    Ok(())
+}

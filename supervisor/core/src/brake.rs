@@ -117,7 +117,7 @@ impl Brake {
             } else {
                 self.retarder
             },
-            // VLC-2: friction fills up what the electric part may not give.
+            // VLC-2b, c, d: friction fills up what the electric part may not give.
             electric: evidence.electric,
             // RSP-1: the brakes fall short of an obligation: the retarder helps, unless ABS is, or may be, at work.
             retarder_obliged: situation.response.brake != Deviation::None
@@ -144,7 +144,7 @@ impl Brake {
             floor.raise(config.leave_hold, Reason::Bypass);
         }
         if situation.safe_state {
-            // SELF-5: a₀(v) if the seat is known vacant, 1.35 m/s² below 2 km/h.
+            // SELF-5d: a₀(v) if the seat is known vacant, 1.35 m/s² below 2 km/h.
             if evidence.seat == SeatView::Vacant {
                 let table = evidence.speed.map_or(config.leave_hold, |speed| leave_table(speed.low, config));
                 floor.raise(table, Reason::SafeState);
@@ -190,7 +190,7 @@ impl BrakeBound {
     }
 }
 
-/// What may be: PHB-1, TRQ-3, TRQ-4. Never below the floor, never below what the driver's pedal asks for.
+/// PHB-1, MIT-6d, TRQ-3, TRQ-4, RULE-3b: what may be. Never below the floor, never below what the driver's pedal asks for.
 fn cap(situation: &Situation, floor: Bound<DecelMs2Q11>, evidence: &Evidence, config: &Config) -> Bound<DecelMs2Q11> {
     let threat = situation.threat;
     let danger = situation.mitigation.permitted || situation.mitigation.three;

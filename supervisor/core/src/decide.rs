@@ -109,6 +109,7 @@ fn envelope(
         safe_state: must.safe_state,
         loose: response.parking && !confirmed,
     };
+    // SELF-5f: the contactors hold in the safe state.
     let held = permit!(!must.safe_state => Reason::SafeState);
     let sound = permit!(!next.latches.contactor() => Reason::ContactorFault);
     let (k4, k1) = high_voltage.bounds(evidence, inputs, held, sound, config);
@@ -140,9 +141,11 @@ fn envelope(
             forward_collision: mitigation.forward,
             pedestrian: mitigation.pedestrian,
             seat_leave: seat.leave,
+            // SELF-5h: and in the safe state.
             hazard_flashers: seat.leave || must.safe_state,
             fault_lamp: faults.without(Faults::HINTS) != Faults::NONE,
             notice_lamp: next.steering.barred
+                || next.steering.astray
                 || next.steering.lost
                 || (steering.enable.is_err() && next.steering.acts())
                 || drive.notices(config),
@@ -154,6 +157,7 @@ fn envelope(
     }
 }
 
+/// SEAT-10c: what is reported in this cycle, the seat sensors among it.
 fn faults(
     next: &State,
     threat: &Threat,

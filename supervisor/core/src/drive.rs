@@ -188,20 +188,21 @@ impl Drive {
         config: &Config,
     ) -> TorqueBound {
         let mut common = Bound { most: Percent::FULL, reason: Reason::DriveLimit };
+        // SEAT-2a, MIT-5a, SELF-5c: no torque against an obligation.
         let mut refuse = |condition, reason| common.lower_if(condition, Percent::ZERO, reason);
         if let Some(reason) = must.reason() {
             refuse(true, reason);
         }
         refuse(self.release_needed, Reason::ReleaseNeeded);
         refuse(must.shutdown, Reason::Shutdown);
-        // SEAT-6: without a confirmed driver no torque when slow, parked, or neither known.
+        // SEAT-6b: without a confirmed driver no torque when slow, parked, or neither known.
         let moving = evidence.surely_at_least(config.epb_speed) && inputs.epb.is(EpbState::Released);
         refuse(!must.confirmed && !moving, Reason::SeatNotOccupied);
         // TRQ-6: only in a confirmed direction.
         refuse(!matches!(inputs.gear.known(), Some(Gear::Drive | Gear::Reverse)), Reason::GearDirection);
         // TRQ-5: electric limit; unknown ⇒ none.
         common.lower(percent(inputs.drive_limit).unwrap_or(Percent::ZERO), Reason::DriveLimit);
-        // RSP-1: slip control at work (or unknown): no rise.
+        // RSP-1n: slip control at work (or unknown): no rise.
         common.lower_if(!inputs.asr.is(false), self.torque, Reason::SlipControl);
 
         // TRQ-5: rises are limited, falls never.
@@ -237,7 +238,7 @@ impl Drive {
         TorqueBound { driver, automated, epbi, idle: config.idle_torque, hill_hold }
     }
 
-    /// TRQ-5: the last output plus what the gradient allows in this cycle.
+    /// TRQ-5, CMD-3f: the last output plus what the gradient allows in this cycle.
     fn ramped(&self, ramp: PercentPerS, elapsed: Millis) -> Percent {
         let (rise, _) = self.rest.portion(ramp.raw(), elapsed);
         Percent::new(self.torque.raw().saturating_add(u8::try_from(rise).unwrap_or(u8::MAX)).min(100))

@@ -203,7 +203,7 @@ bounds! {
 }
 
 impl Envelope {
-    /// Whether every channel has a legal command (rule 4): no bound contradicts another.
+    /// SELF-2d, RULE-3d, RULE-4a: whether every channel has a legal command: no bound contradicts another.
     ///
     /// `decide` gives only feasible envelopes (proved); the proofs of `vet` assume nothing else.
     #[must_use]

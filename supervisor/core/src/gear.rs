@@ -50,7 +50,7 @@ impl GearState {
     ) -> GearBound {
         let confirmed = seat.confirmed(config);
         let parked = inputs.epb.is(EpbState::Applied);
-        // SEAT-6: a driving gear needs the driver, unless the bus is known to roll with the brake released.
+        // SELF-5f, SEAT-6a, c: the gear holds in the safe state; a driving gear needs the driver, unless the bus is known to roll with the brake released.
         let rolling = evidence.surely_at_least(config.epb_speed) && inputs.epb.is(EpbState::Released);
         let gear = |selected: Gear, direction: Direction| -> Permission {
             let may_change = evidence.standstill || (evidence.speed.is_some() && self.direction == direction);
@@ -62,7 +62,7 @@ impl GearState {
             drive: gear(Gear::Drive, Direction::Forward),
             reverse: gear(Gear::Reverse, Direction::Reverse),
             park: permit!(!safe_state => Reason::SafeState, confirmed => Reason::SeatNotOccupied, inputs.selector.is(Gear::Park) => Reason::Selector, evidence.standstill => Reason::NotStandstill),
-            // SEAT-4: a parking brake that does not confirm leaves the gear as it is.
+            // SEAT-4c: a parking brake that does not confirm leaves the gear as it is.
             to_neutral: permit!(!safe_state => Reason::SafeState, !parking.overdue(config) => Reason::EpbApply),
         }
     }

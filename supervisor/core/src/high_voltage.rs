@@ -73,6 +73,7 @@ impl HighVoltage {
         };
         let (k4_open, k1_open) = (inputs.k4.is(Contact::Open), inputs.k1.is(Contact::Open));
         let restart = self.restart(seat, clean, evidence, inputs, config);
+        // SEAT-7a to SEAT-7d: the shutdown begins with every guard kept.
         let begin = parked.reached(config.shutdown_after)
             && !(k4_open && k1_open)
             && evidence.seat == SeatView::Vacant
@@ -81,7 +82,7 @@ impl HighVoltage {
             && torque_stopped(inputs, config);
         let stage = match self.stage {
             Stage::Up if begin => Stage::OpeningK4,
-            // SEAT-8: only a complete restart leads up again, and never out of a committed sequence.
+            // SEAT-7k, SEAT-8a: only a complete restart leads up again, and never out of a committed sequence.
             Stage::Down if restart == Restart::Started => Stage::Up,
             Stage::OpeningK4 if k4_open => Stage::OpeningK1,
             Stage::OpeningK1 if k4_open && k1_open => Stage::Down,
@@ -101,7 +102,7 @@ impl HighVoltage {
         Self { stage, parked, wait, restart, key }
     }
 
-    /// SEAT-7, SEAT-9, SEAT-11: the 10 minutes.
+    /// SEAT-7a, SEAT-9b, SEAT-11a, b, c, e, f: the 10 minutes.
     fn parked_for(self, evidence: &Evidence, inputs: &Inputs, ticks: Ticks, confirmed: bool) -> Timer {
         if confirmed || inputs.epb.is(EpbState::Released) {
             return Timer::STOPPED;
@@ -114,7 +115,7 @@ impl HighVoltage {
         if continues && inputs.epb.is(EpbState::Applied) { self.parked.run(ticks.permission) } else { self.parked }
     }
 
-    /// SEAT-8: seat confirmed occupied, key Off, key Start (edge), in that order, seat not lost between.
+    /// SEAT-8a, b: seat confirmed occupied, key Off, key Start (edge), in that order, seat not lost between.
     fn restart(self, seat: &SeatState, clean: bool, evidence: &Evidence, inputs: &Inputs, config: &Config) -> Restart {
         let sits = seat.confirmed(config) && evidence.seat == SeatView::Occupied;
         let both_closed = inputs.k1.is(Contact::Closed) && inputs.k4.is(Contact::Closed);
@@ -131,11 +132,11 @@ impl HighVoltage {
         }
     }
 
-    /// SEAT-7: K4 was not confirmed open in time.
+    /// SEAT-7h: K4 was not confirmed open in time.
     pub(crate) fn k4_overdue(&self, config: &Config) -> bool {
         self.stage == Stage::OpeningK4 && self.wait.reached(config.k4_deadline)
     }
-    /// SEAT-7: the loads did not stop, or K1 was not confirmed open, in time.
+    /// SEAT-7h: the loads did not stop, or K1 was not confirmed open, in time.
     pub(crate) fn k1_overdue(&self, config: &Config) -> bool {
         self.stage == Stage::OpeningK1 && self.wait.reached(config.k1_deadline)
     }
@@ -151,18 +152,20 @@ impl HighVoltage {
     ) -> (ContactorBound, ContactorBound) {
         let standing = held.and(permit!(evidence.standstill => Reason::NotStandstill));
         let committed = matches!(self.stage, Stage::OpeningK4 | Stage::OpeningK1);
+        // SEAT-7b, d, HV-1a, c: K4 opens at standstill without drive torque.
         let k4_open = standing.and(permit!(torque_stopped(inputs, config) => Reason::LoadsNotStopped));
+        // SEAT-7e, f, g, HV-1b: K1 opens after K4 and the loads.
         let k1_open = standing.and(permit!(
             inputs.k4.is(Contact::Open) => Reason::K4NotOpen,
             loads_stopped(inputs, config) => Reason::LoadsNotStopped,
         ));
-        // SEAT-8, HV-1: closing needs the driver's restart, and no shutdown in progress.
+        // SEAT-8a, c, HV-1d: closing needs the driver's restart, and no shutdown in progress.
         let closing = held
             .and(sound)
             .and(permit!(!committed => Reason::Shutdown, (self.restart == Restart::Started) => Reason::NoRestart));
         let k1_close = closing.and(permit!(inputs.k4.is(Contact::Open) => Reason::K4NotOpen));
         let k4_close = closing.and(permit!(inputs.k1.is(Contact::Closed) => Reason::K1NotClosed));
-        // The guards stand inside the obligation (rule 4): guard lost ⇒ it waits.
+        // RULE-4b, SEAT-7c, i, j: the guards stand inside the obligation: guard lost ⇒ it waits.
         let k4 = ContactorBound {
             obliged: committed && inputs.epb.is(EpbState::Applied) && k4_open.is_ok(),
             open: k4_open,

@@ -83,7 +83,7 @@ impl Mitigation {
         let [enter_one, enter_two, enter_three] = config.level_angle.0;
         let [exit_one, exit_two] = config.level_exit_angle.0;
 
-        // MIT-6: nothing new is obliged when slow, or while the bus already brakes enough. Both need evidence.
+        // MIT-6b, c: nothing new is obliged when slow, or while the bus already brakes enough. Both need evidence.
         let slow = evidence.obliged_below(config.level_least_speed);
         let braking = inputs
             .deceleration

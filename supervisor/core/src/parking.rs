@@ -56,9 +56,9 @@ impl Parking {
         let speedless = self.speedless.run_while(seat.leave && evidence.speed.is_none(), ticks.safety);
         let slow = evidence.slow(config.epb_speed, self.slow);
         let next = Self { slow, speedless, ..self };
-        // SEAT-4: leave below 1.5 km/h applies the brake and sets the latch.
+        // SEAT-4d: leave below 1.5 km/h applies the brake and sets the latch.
         let by_leave = self.by_leave || (seat.leave && next.is_slow(evidence, config));
-        // SEAT-5: K1, K4 and gear first, then the accelerator anew.
+        // SEAT-5b, c, d: K1, K4 and gear first, then the accelerator anew.
         let ready = seat.confirmed(config)
             && inputs.k1.is(Contact::Closed)
             && inputs.k4.is(Contact::Closed)
@@ -79,19 +79,19 @@ impl Parking {
         evidence.obliged_below(config.epb_speed) || self.speedless.reached(config.epb_speedless)
     }
 
-    /// SEAT-4, SEAT-11: apply until confirmed, and again when it comes loose.
+    /// SEAT-4a, b, SEAT-11d: apply until confirmed, and again when it comes loose.
     fn must_apply(&self, seat: &SeatState, evidence: &Evidence, inputs: &Inputs, config: &Config) -> bool {
         let kept = seat.leave || (self.by_leave && !seat.confirmed(config));
         kept && self.is_slow(evidence, config) && !inputs.epb.is(EpbState::Applied)
     }
 
-    /// After vetting: a release that went out was a legal one, and ends *parked by leave*.
+    /// SEAT-4e, SEAT-9c: after vetting: a release that went out was a legal one, and it alone ends *parked by leave*.
     pub(crate) fn record(self, outputs: &Outputs) -> Self {
         let released = outputs.epb.request == EpbRequest::Release;
         Self { by_leave: self.by_leave && !released, ..self }
     }
 
-    /// SEAT-4: an apply was not confirmed in time.
+    /// SEAT-4c: an apply was not confirmed in time.
     pub(crate) const fn overdue(&self, config: &Config) -> bool {
         self.unconfirmed.reached(config.epb_confirm)
     }
@@ -112,11 +112,13 @@ impl Parking {
         } else if forced.is_some() {
             forced
         } else if safe_state && self.slow {
+            // SELF-5e: and release is refused below.
             Some(Reason::SafeState)
         } else {
             switch.then_some(Reason::DriverSwitch)
         };
         let slow = evidence.surely_below(config.epb_speed);
+        // SEAT-5a: the seat in this very cycle; then what SEAT-5b to SEAT-5d ask for.
         let release = permit!(
             (seat.confirmed(config) && evidence.seat == SeatView::Occupied) => Reason::SeatNotOccupied,
             !safe_state => Reason::SafeState,
@@ -125,7 +127,7 @@ impl Parking {
             !switch => Reason::DriverSwitch,
             (!self.by_leave || self.pedal == PedalChain::PressedAnew) => Reason::ParkedByLeave,
         );
-        // EPB-1: the driver's own switch goes first, either way.
+        // EPB-1a, d: the driver's own switch goes first, either way.
         let driver_releases = inputs.epb_switch.is(EpbSwitch::Release) && release.is_ok();
         let apply = permit!(
             (obliged.is_some() || slow) => Reason::EpbSpeed,

@@ -25,12 +25,13 @@ retained! {
 }
 
 impl SeatState {
-    /// *Confirmed occupied*, the evidence of every permission that needs a driver.
+    /// SEAT-0a, SEAT-10b: *confirmed occupied*, the evidence of every permission that needs a driver.
     #[must_use]
     pub const fn confirmed(&self, config: &Config) -> bool {
         self.occupied.reached(config.seat_confirm)
     }
 
+    /// SEAT-10a: sensors that disagree or are unknown begin no leave and end none.
     pub(crate) fn advance(self, evidence: &Evidence, inputs: &Inputs, ticks: Ticks, config: &Config) -> Self {
         let occupied = self.occupied.run_while(evidence.seat == SeatView::Occupied, ticks.permission);
         let (vacant, unknown) = match evidence.seat {
@@ -44,6 +45,7 @@ impl SeatState {
             }
         };
         let next = Self { occupied, vacant, unknown, leave: self.leave };
+        // SEAT-9a, d: confirmed ends it; the next one begins like the first.
         let leave = if self.leave {
             !next.confirmed(config)
         } else {
@@ -53,7 +55,7 @@ impl SeatState {
     }
 }
 
-/// *Not parked* = powered on and (EPB known not applied, or speed known ≥ 1.5 km/h).
+/// SEAT-0b: *not parked* = powered on and (EPB known not applied, or speed known ≥ 1.5 km/h).
 ///
 /// *Powered on* is read both ways of S3's 上电: the key is on, or the battery's main contactor is closed.
 fn not_parked(evidence: &Evidence, inputs: &Inputs, config: &Config) -> bool {

@@ -71,7 +71,7 @@ impl State {
         }
     }
 
-    /// SELF-5: the state after retained words that did not decode: any other boot, in the safe state.
+    /// SELF-5b: the state after retained words that did not decode: any other boot, in the safe state.
     #[must_use]
     pub fn corrupted() -> Self {
         Self { latches: Latches::with(Faults::STATE), ..Self::boot(ResetCause::Other, None) }
@@ -89,7 +89,7 @@ impl State {
         }
     }
 
-    /// SELF-5: a latched fault of the supervisor itself is the safe state.
+    /// SELF-5b: a latched fault of the supervisor itself is the safe state.
     #[must_use]
     pub fn is_safe_state(&self) -> bool {
         self.latches.safe_state()

@@ -30,6 +30,8 @@ retained! {
         takeover: Timer = Timer::STOPPED,
         /// Taken over: automatic steering must be asked for anew.
         barred: bool = false,
+        /// It did not follow: it must be asked for anew, too (RSP-1).
+        astray: bool = false,
         /// It acts without a usable command: it fades out.
         lost: bool = false,
     }
@@ -65,7 +67,7 @@ impl SteeringState {
         self.takeover.reached(config.takeover_time)
     }
 
-    /// `astray` says that the steering does not follow: it ends like a takeover (RSP-1).
+    /// `astray` says that the steering does not follow (RSP-1).
     pub(crate) fn advance(
         self,
         astray: bool,
@@ -79,8 +81,9 @@ impl SteeringState {
         let takeover = self.takeover.run_while(strong, ticks.safety);
         let angle = if self.acts() { self.angle } else { evidence.steering_angle.unwrap_or(self.angle) };
 
-        let barred = self.barred || astray || takeover.reached(config.takeover_time);
-        Self { angle, takeover, barred, ..self }
+        let barred = self.barred || takeover.reached(config.takeover_time);
+        let astray = self.astray || astray;
+        Self { angle, takeover, barred, astray, ..self }
     }
 
     /// After vetting. `asked` says whether a usable command asked for automatic steering; `None`: no usable command.
@@ -101,6 +104,7 @@ impl SteeringState {
             angle: outputs.steering.angle,
             overlay: outputs.steering.overlay,
             barred: self.barred && asked == Some(true),
+            astray: self.astray && asked == Some(true),
             lost: asked.is_none() && outputs.steering.weight > Percent::ZERO,
             ..self
         }
@@ -118,7 +122,8 @@ impl SteeringState {
             speed.low >= config.steering_speed_least && speed.high <= config.steering_speed_greatest
         });
         let granted = self.acts() || mode != Mode::Manual;
-        permit!(!safe_state => Reason::SafeState, !self.barred => Reason::Takeover, matches!(inputs.eps.known(), Some(EpsState::Ready | EpsState::Active)) => Reason::PowerSteering, (evidence.steering_angle.is_some() && inputs.driver_torque.known().is_some()) => Reason::SteeringRefused, in_range => Reason::SteeringSpeed, (granted && !inputs.cruise_switch.is(false)) => Reason::SteeringRefused)
+        // SELF-5g: not permitted means that it fades out.
+        permit!(!safe_state => Reason::SafeState, !self.barred => Reason::Takeover, !self.astray => Reason::SteeringResponse, matches!(inputs.eps.known(), Some(EpsState::Ready | EpsState::Active)) => Reason::PowerSteering, (evidence.steering_angle.is_some() && inputs.driver_torque.known().is_some()) => Reason::SteeringRefused, in_range => Reason::SteeringSpeed, (granted && !inputs.cruise_switch.is(false)) => Reason::SteeringRefused)
     }
 
     pub(crate) fn bound(
@@ -136,7 +141,7 @@ impl SteeringState {
         let limit = config.steering_angle.0.get(row).map_or(0, |angle| angle.raw());
         let rate = rate(evidence, config);
 
-        // STR-1: the window of speed and measured angle, then what the rate can reach of it: no jump, ever.
+        // STR-1, CMD-3f: the window of speed and measured angle, then what the rate can reach of it: no jump, ever.
         let measured = evidence.steering_angle.unwrap_or(self.angle).raw();
         let deviation = config.steering_deviation.raw().max(0);
         let window = |edge: i16| edge.max(limit.saturating_neg()).min(limit);

@@ -5,6 +5,7 @@ use crate::envelope::Envelope;
 use crate::state::{State, StateImage};
 use crate::vet::vet;
 
+use supervisor_observe::Evidence;
 use supervisor_terms::{
     Checkpoint, Commands, Config, ExitReason, Faults, Flow, Inputs, Level, Millis, Mode, Occupancy, Outputs, Record,
     Sealed, Stage, Threat, Verdicts,
@@ -50,12 +51,12 @@ pub struct Decision {
     pub flow: Flow,
 }
 
-/// One cycle: decode the state, observe the actuators, decide, vet, put the state to rest.
+/// SELF-4f: one cycle, without a switch that leaves a part out: decode the state, observe the actuators, decide, vet, put the state to rest.
 ///
 /// `flow` has passed what ran before, [`Flow::PERCEIVED`] where perception did or was not needed (SELF-6).
 ///
 /// Total: any image, time, inputs, threat and commands give a decision (SELF-1). State that does not decode, or a
-/// configuration that has changed, is the safe state, latched (SELF-4, SELF-5).
+/// configuration that has changed, is the safe state, latched (SELF-4e, SELF-5b).
 #[must_use]
 pub fn step(
     image: &mut StateImage,
@@ -74,7 +75,7 @@ pub fn step(
     });
     let flow = flow.pass(Checkpoint::Configuration);
     let (_, ticks) = state.clock.advance(now, config);
-    let (monitors, response) = state.monitors.advance(inputs, ticks, config);
+    let (monitors, response) = state.monitors.advance(&Evidence::gather(inputs, config), inputs, ticks, config);
     let flow = flow.pass(Checkpoint::Observe);
     let decided = decide(&State { monitors, ..state }, now, inputs, threat, &response, config);
     let flow = flow.pass(Checkpoint::Decide);

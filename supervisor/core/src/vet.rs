@@ -12,7 +12,7 @@ use supervisor_terms::{
     Reason, Retarder, ServiceBrake, SpeedKmhQ8, Steering, TorqueNmQ10, Verdict, Verdicts, Warnings,
 };
 
-/// Vets every channel of one cycle.
+/// SELF-2a, c, RULE-3a, c, e, CMD-3a, b: vets every channel of one cycle.
 #[must_use]
 pub fn vet(envelope: &Envelope, commands: &Commands) -> (Outputs, Verdicts) {
     let mut out = Outputs::NEUTRAL;
@@ -42,7 +42,7 @@ pub fn vet(envelope: &Envelope, commands: &Commands) -> (Outputs, Verdicts) {
     (out, Verdicts::new(list))
 }
 
-/// The verdict of a channel: `Pass` exactly when a usable command goes out unchanged.
+/// SELF-2b, CMD-2e, CMD-3c: the verdict of a channel: `Pass` exactly when a usable command goes out unchanged.
 fn judge<T: PartialEq>(
     usable: Result<T, Reason>,
     out: &T,
@@ -59,7 +59,7 @@ fn judge<T: PartialEq>(
     }
 }
 
-/// GEAR-1, SEAT-6.
+/// GEAR-1, SEAT-6a, SELF-11c.
 #[must_use]
 pub fn vet_gear(envelope: &Envelope, command: Command<GearRequest>) -> (GearRequest, Verdict) {
     let bound = &envelope.gear;
@@ -86,7 +86,7 @@ pub fn vet_gear(envelope: &Envelope, command: Command<GearRequest>) -> (GearRequ
     (out, judge(usable, &out, &GearRequest::Hold, Verdict::PASS, cause))
 }
 
-/// SEAT-3, MIT, PHB-1, TRQ-3, VLC-2: the total, then the split, then mode and priority.
+/// SEAT-3, MIT-4, PHB-1, TRQ-3, VLC-2e, SELF-11b: the total, then the split, then mode and priority.
 #[must_use]
 pub fn vet_brake(envelope: &Envelope, command: Command<ServiceBrake>) -> (ServiceBrake, Verdict) {
     let bound = &envelope.brake;
@@ -101,7 +101,7 @@ pub fn vet_brake(envelope: &Envelope, command: Command<ServiceBrake>) -> (Servic
     let wanted = usable.unwrap_or(if holds { held } else { ServiceBrake::NEUTRAL });
     let mut out = wanted;
     let mut cause = None;
-    // An obligation carries its own mode and priority: the driver's demand is the floor.
+    // CMD-6a, b: an obligation carries its own mode and priority: the driver's demand is the floor.
     let obliged = bound.floor.most > DecelMs2Q11::ZERO;
     if obliged && (out.mode != BrakeMode::Maximum || out.priority != Priority::Highest) {
         let mode = out.mode != BrakeMode::Maximum;
@@ -132,7 +132,7 @@ pub fn vet_brake(envelope: &Envelope, command: Command<ServiceBrake>) -> (Servic
     (out, judge(usable, &out, &ServiceBrake::NEUTRAL, pass, cause))
 }
 
-/// RET-1, PHB-1: at most what the cap leaves beside the service brake, [`BrakeBound::retarder_beside`].
+/// RET-1, PHB-1, SELF-11g: at most what the cap leaves beside the service brake, [`BrakeBound::retarder_beside`].
 ///
 /// [`BrakeBound::retarder_beside`]: crate::BrakeBound::retarder_beside
 #[must_use]
@@ -155,6 +155,7 @@ pub fn vet_retarder(envelope: &Envelope, most: Bound<Percent>, command: Command<
     (out, judge(usable, &out, &Retarder::NEUTRAL, pass, cause))
 }
 
+/// CMD-5e: the nearest value inside the bound.
 fn limited(wanted: Percent, bound: Bound<Percent>) -> (Percent, Verdict, Option<Verdict>) {
     let pass = Verdict::above(Kind::Pass, Reason::Within, wanted.wide(), bound.most.wide());
     let cause =
@@ -162,7 +163,7 @@ fn limited(wanted: Percent, bound: Bound<Percent>) -> (Percent, Verdict, Option<
     (wanted.min(bound.most), pass, cause)
 }
 
-/// TRQ-1 to TRQ-6: beside the mode and the gear that go out, and the total deceleration ([`BrakeBound::total`]).
+/// TRQ-1 to TRQ-6, SELF-11a: beside the mode and the gear that go out, and the total deceleration ([`BrakeBound::total`]).
 ///
 /// [`BrakeBound::total`]: crate::BrakeBound::total
 #[must_use]
@@ -211,7 +212,7 @@ pub fn vet_drive(
     (out, judge(usable, &out, &DriveTorque::NEUTRAL, pass, blocked.filter(|_| usable.is_ok()).or(cause)))
 }
 
-/// SPD-1: beside the mode that goes out.
+/// SPD-1, SELF-11f: beside the mode that goes out.
 #[must_use]
 pub fn vet_target_speed(envelope: &Envelope, mode: DrivingMode, command: Command<SpeedKmhQ8>) -> (SpeedKmhQ8, Verdict) {
     let mut bound = envelope.target_speed;
@@ -224,7 +225,7 @@ pub fn vet_target_speed(envelope: &Envelope, mode: DrivingMode, command: Command
     (out, judge(usable, &out, &SpeedKmhQ8::ZERO, pass, cause))
 }
 
-/// SEAT-4, SEAT-5, EPB-1: a refused release becomes *none*.
+/// SEAT-4a, SEAT-5e, SELF-11d: a refused release becomes *none*.
 #[must_use]
 pub fn vet_epb(envelope: &Envelope, command: Command<ParkingBrake>) -> (ParkingBrake, Verdict) {
     let bound = &envelope.epb;
@@ -252,7 +253,7 @@ pub fn vet_epb(envelope: &Envelope, command: Command<ParkingBrake>) -> (ParkingB
     (out, judge(usable, &out, &ParkingBrake::NEUTRAL, Verdict::PASS, cause))
 }
 
-/// STR-1, STR-2.
+/// STR-1, STR-2, SELF-11e.
 #[must_use]
 pub fn vet_steering(envelope: &Envelope, command: Command<Steering>) -> (Steering, Verdict) {
     let bound = &envelope.steering;
@@ -318,7 +319,7 @@ pub fn vet_steering(envelope: &Envelope, command: Command<Steering>) -> (Steerin
     (out, judge(usable, &out, &Steering::NEUTRAL, pass, cause))
 }
 
-/// SEAT-7, SEAT-8, HV-1: each contactor against its bound; K4 opens only beside a drive torque of 0.
+/// SEAT-7f, SEAT-8c, HV-1c, SELF-11h: each contactor against its bound; K4 opens only beside a drive torque of 0.
 #[must_use]
 pub fn vet_contactors(envelope: &Envelope, torque: Percent, command: Command<Contactors>) -> (Contactors, Verdict) {
     let usable = command.usable(envelope.timeouts.ms100);
@@ -353,7 +354,7 @@ fn contactor(bound: ContactorBound, wanted: ContactorRequest) -> (ContactorReque
     }
 }
 
-/// AUX-1: not switched off while rolling.
+/// AUX-1, SELF-11i: not switched off while rolling.
 #[must_use]
 pub fn vet_auxiliaries(envelope: &Envelope, command: Command<Auxiliaries>) -> (Auxiliaries, Verdict) {
     let usable = command.usable(envelope.timeouts.ms200);
@@ -366,7 +367,7 @@ pub fn vet_auxiliaries(envelope: &Envelope, command: Command<Auxiliaries>) -> (A
     (out, judge(usable, &out, &Auxiliaries::NEUTRAL, Verdict::PASS, cause))
 }
 
-/// FCW-1, PCW-1, SEAT-1: on is the safe direction.
+/// FCW-1, PCW-1, SEAT-1, CMD-1e, SELF-11j: on is the safe direction.
 #[must_use]
 pub fn vet_warnings(envelope: &Envelope, command: Command<Warnings>) -> (Warnings, Verdict) {
     let bound = envelope.warnings;
@@ -385,7 +386,7 @@ pub fn vet_warnings(envelope: &Envelope, command: Command<Warnings>) -> (Warning
     (out, judge(usable, &out, &Warnings::NEUTRAL, Verdict::PASS, cause))
 }
 
-/// BODY-1: beside the total deceleration.
+/// BODY-1, SELF-11j: beside the total deceleration.
 #[must_use]
 pub fn vet_body(envelope: &Envelope, braking: DecelMs2Q11, command: Command<Body>) -> (Body, Verdict) {
     let usable = command.usable(envelope.timeouts.ms200);
@@ -404,7 +405,7 @@ pub fn vet_body(envelope: &Envelope, braking: DecelMs2Q11, command: Command<Body
     (out, judge(usable, &out, &Body::NEUTRAL, Verdict::PASS, cause))
 }
 
-/// MODE-1.
+/// MODE-1, SELF-11k.
 #[must_use]
 pub fn vet_mode(envelope: &Envelope, command: Command<DrivingMode>) -> (DrivingMode, Verdict) {
     let usable = command.usable(envelope.timeouts.ms200);

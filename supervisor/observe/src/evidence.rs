@@ -79,11 +79,13 @@ fn deepest([first, second]: [Signal<Pedal250>; 2]) -> Pedal250 {
     pedal(first).max(pedal(second)).unwrap_or(Pedal250::ZERO)
 }
 
+/// E2E-1d: two tracks are known while they agree.
 fn agreed([first, second]: [Signal<Pedal250>; 2], config: &Config) -> Option<Pedal250> {
     let (first, second) = (pedal(first)?, pedal(second)?);
     (first.raw().abs_diff(second.raw()) <= config.pedal_agree.raw()).then_some(first.min(second))
 }
 
+/// RULE-6c, E2E-1d: the two speeds, where they agree; otherwise unknown.
 fn speed(inputs: &Inputs, config: &Config) -> Option<Speed> {
     let (wheel, motor) = (inputs.wheel_speed.known()?, inputs.motor_speed.known()?);
     let (low, high) = (wheel.min(motor), wheel.max(motor));
@@ -132,7 +134,7 @@ fn split(inputs: &Inputs, config: &Config) -> (DecelMs2Q11, bool) {
 }
 
 impl Evidence {
-    /// Reads the inputs once.
+    /// CMD-7a, b: reads the inputs once; nothing that the main controller or a remote operator says is among them.
     #[must_use]
     pub fn gather(inputs: &Inputs, config: &Config) -> Self {
         let speed = speed(inputs, config);
@@ -160,17 +162,17 @@ impl Evidence {
         }
     }
 
-    /// Known to be slower than `limit`, by the lower speed: evidence for an obligation.
+    /// RULE-6a, RULE-1b: known to be slower than `limit`, by the lower speed: evidence for an obligation.
     #[must_use]
     pub fn obliged_below(&self, limit: SpeedKmhQ8) -> bool {
         self.speed.is_some_and(|speed| speed.low < limit)
     }
-    /// The same, keeping what was last known while the speed is unknown: an obligation that has begun stays (rule 1).
+    /// RULE-1d: the same, keeping what was last known while the speed is unknown: an obligation that has begun stays (rule 1).
     #[must_use]
     pub fn slow(&self, limit: SpeedKmhQ8, before: bool) -> bool {
         self.speed.map_or(before, |speed| speed.low < limit)
     }
-    /// Known to be slower than `limit`, by the higher speed: evidence for a permission.
+    /// RULE-6b, RULE-1c: known to be slower than `limit`, by the higher speed: evidence for a permission.
     #[must_use]
     pub fn surely_below(&self, limit: SpeedKmhQ8) -> bool {
         self.speed.is_some_and(|speed| speed.high < limit)

@@ -10,6 +10,8 @@ retained! {
     Follow {
         /// Lowest target since it fell short; the target while it follows.
         reference: u16 = 0,
+        /// What was measured when it fell short.
+        start: u16 = 0,
         /// Since the command that it does not follow.
         command: Timer = Timer::STOPPED,
         /// Since its first response to that command.
@@ -21,7 +23,7 @@ retained! {
 
 /// 95 % of the target is reached (S4 3.8).
 const REACHED: u32 = 95;
-/// 5 % of it is a first response.
+/// 5 % of the way there is a first response.
 const RESPONDED: u32 = 5;
 
 impl Follow {
@@ -38,13 +40,22 @@ impl Follow {
         if hundredfold >= u32::from(reference).saturating_mul(needed) {
             return Self { reference: target, following: true, ..Self::INITIAL };
         }
-        let responds = hundredfold >= u32::from(reference).saturating_mul(RESPONDED);
+        let start = if self.command.is_running() { self.start } else { measured };
+        let way = u32::from(reference.saturating_sub(start)).saturating_mul(RESPONDED);
+        let responds = hundredfold >= u32::from(start).saturating_mul(100).saturating_add(way);
         Self {
             reference,
+            start,
             command: self.command.run(elapsed),
             response: self.response.run_while(responds, elapsed),
             following: false,
         }
+    }
+
+    /// The same with its times begun anew: the demand has become a stronger one.
+    #[must_use]
+    pub const fn restarted(self) -> Self {
+        Self { command: Timer::STOPPED, response: Timer::STOPPED, ..self }
     }
 
     /// It does not follow: `outer` since the command, or `inner` since its first response, has passed.

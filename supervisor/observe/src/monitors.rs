@@ -11,7 +11,7 @@ use supervisor_terms::{
 };
 
 use crate::clock::Ticks;
-use crate::evidence::percent;
+use crate::evidence::{Evidence, percent};
 use crate::follow::Follow;
 use crate::moves::Moves;
 use crate::steered::SteeredAngle;
@@ -19,10 +19,12 @@ use crate::steered::SteeredAngle;
 retained! {
     /// What went out, and how well it was followed.
     Monitors {
-        /// Service brake and retarder together.
+        /// The service brake.
         brake: Follow = Follow::INITIAL,
-        /// How long the brakes have fallen short.
+        /// How long it has fallen short.
         short: Timer = Timer::STOPPED,
+        /// It fell short of this demand: the next stronger means helps until the demand ends.
+        helps: bool = false,
         /// How long they have given too much.
         brake_over: Timer = Timer::STOPPED,
         /// Drive torque, too little.
@@ -51,7 +53,9 @@ retained! {
         k1: Moves<Contact> = Moves::INITIAL,
         /// Since a bypass was last seen.
         bypass: Timer = Timer::STOPPED,
-        /// Last output: total deceleration.
+        /// Last output: service brake.
+        service: DecelMs2Q11 = DecelMs2Q11::ZERO,
+        /// Last output: service brake and retarder together.
         total: DecelMs2Q11 = DecelMs2Q11::ZERO,
         /// Last output: in level 3.
         emergency: bool = false,
@@ -69,6 +73,11 @@ fn share(value: u16, percent: Percent) -> u16 {
     u16::try_from(u32::from(value).saturating_mul(u32::from(percent.raw())) / 100).unwrap_or(u16::MAX)
 }
 
+/// A timer that stays as it is while its condition is not known.
+fn known_run(timer: Timer, condition: Option<bool>, elapsed: Millis) -> Timer {
+    condition.map_or(timer, |condition| timer.run_while(condition, elapsed))
+}
+
 /// A time of S4's tables, with the dead time and the age of the feedback.
 fn allowed(time: Millis, config: &Config) -> Millis {
     Millis::new(time.raw().saturating_add(config.response_age.raw()))
@@ -77,27 +86,26 @@ fn allowed(time: Millis, config: &Config) -> Millis {
 impl Monitors {
     /// Compares the feedback of this cycle with the last output.
     #[must_use]
-    pub fn advance(self, inputs: &Inputs, ticks: Ticks, config: &Config) -> (Self, Response) {
+    pub fn advance(self, evidence: &Evidence, inputs: &Inputs, ticks: Ticks, config: &Config) -> (Self, Response) {
         let (gearbox, gear_alone) = self.gearbox.advance(inputs.gear.known());
         let (epb, epb_alone) = self.epb.advance(inputs.epb.known());
         let (k4, k4_alone) = self.k4.advance(inputs.k4.known());
         let (k1, k1_alone) = self.k1.advance(inputs.k1.known());
         // A gearbox that falls to neutral by itself does not drive.
         let gear_alone = gear_alone && matches!(inputs.gear.known(), Some(Gear::Drive | Gear::Reverse));
-        let gear_waits = gearbox.asked.is_some() && inputs.gear.known().is_some() && gearbox.asked != gearbox.seen;
         let steers_alone = inputs.eps.is(EpsState::Active) && self.weight == Percent::ZERO;
         let next = Self {
             gearbox,
             epb,
             k4,
             k1,
-            gear: self.gear.run_while(gear_waits, ticks.safety),
+            gear: known_run(self.gear, inputs.gear.known().map(|_| gearbox.asked.is_some()), ticks.safety),
             loose: (self.loose || (epb_alone && inputs.epb.is(EpbState::Released)))
                 && !inputs.epb.is(EpbState::Applied),
-            steers: self.steers.run_while(steers_alone, ticks.safety),
+            steers: known_run(self.steers, inputs.eps.known().map(|_| steers_alone), ticks.safety),
             ..self
         };
-        let next = next.with_brake(inputs, ticks.safety, config).with_drive(inputs, ticks.safety, config);
+        let next = next.with_brake(evidence, inputs, ticks.safety, config).with_drive(inputs, ticks.safety, config);
         let next = next.with_steering(inputs, ticks.safety, config);
 
         let [_, steering_outer] = config.response_steering.0;
@@ -108,7 +116,7 @@ impl Monitors {
         let seen = alone || inputs.second_sender;
         let since = if seen { Timer::STOPPED.run(ticks.safety) } else { next.bypass };
         let running = since.is_running() && !since.reached(config.bypass_hold);
-        let bypass = if seen || !running { since } else { since.run(ticks.safety) };
+        let bypass = if seen || !running { since } else { since.run(ticks.permission) };
         let next = Self { bypass, ..next };
         let response = next.response(inputs, config);
         let faults = response
@@ -119,33 +127,33 @@ impl Monitors {
         (next, Response { bypass: running, faults, ..response })
     }
 
-    /// RSP-1b, c, g, i, j, l: deceleration against the last output, while the bus rolls and ABS is not at work.
-    fn with_brake(self, inputs: &Inputs, elapsed: Millis, config: &Config) -> Self {
-        let speeds = (inputs.wheel_speed.known(), inputs.motor_speed.known());
-        let low = if let (Some(wheel), Some(motor)) = speeds { Some(wheel.min(motor)) } else { None };
-        let stands = low.is_some_and(|speed| speed < config.response_speed);
-        let compared = self.total >= config.response_decel && !stands && !inputs.abs.is(true);
-        let target = if compared { self.total.raw() } else { 0 };
-        let measured = inputs.deceleration.known().filter(|_| low.is_some()).map(DecelMs2Q11::raw);
+    /// RSP-1b, RSP-1c, RSP-1g, RSP-1i, RSP-1j, RSP-1l: deceleration against the last output, while the bus rolls and ABS
+    /// is not at work. What the retarder gives counts as help, not as a demand.
+    fn with_brake(self, evidence: &Evidence, inputs: &Inputs, elapsed: Millis, config: &Config) -> Self {
+        let stands = evidence.surely_below(config.response_speed);
+        let compared = self.service >= config.response_decel && !stands && !inputs.abs.is(true);
+        let target = if compared { self.service.raw() } else { 0 };
+        let measured = inputs.deceleration.known().filter(|measured| *measured <= config.decel_plausible);
+        let measured = measured.filter(|_| evidence.speed.is_some()).map(DecelMs2Q11::raw);
         let brake = self.brake.advance(target, measured, config.response_error.raw(), elapsed);
-        let most =
-            target.saturating_add(share(target, config.response_error)).saturating_add(config.response_drag.raw());
-        let over = compared && inputs.brake_switch.is(false) && measured.is_some_and(|measured| measured > most);
-        let brake_over = self.brake_over.run_while(over, elapsed);
-        let next = Self { brake, brake_over, ..self };
-        Self { short: self.short.run_while(next.falls_short(inputs, config), elapsed), ..next }
-    }
-
-    /// RSP-1g: the brakes have not followed in time; VLC-2f: or the limits of both parts do not reach the total.
-    fn falls_short(&self, inputs: &Inputs, config: &Config) -> bool {
-        let [ordinary, emergency, outer] = config.response_brake.0;
-        let electric = inputs.electric_limit.known().unwrap_or(DecelMs2Q11::ZERO);
+        let total = self.total.raw();
+        let most = total.saturating_add(share(total, config.response_error)).saturating_add(config.response_drag.raw());
+        let over = measured.map(|measured| compared && inputs.brake_switch.is(false) && measured > most);
+        // VLC-2f: or the limits of both parts do not reach it.
         let unable = inputs
             .friction_limit
             .known()
-            .is_some_and(|friction| friction.raw().saturating_add(electric.raw()) < self.total.raw());
+            .is_some_and(|friction| friction.raw().saturating_add(evidence.electric.raw()) < target);
+        let next = Self { brake, brake_over: known_run(self.brake_over, over, elapsed), ..self };
+        let short = next.falls_short(config);
+        Self { short: self.short.run_while(short, elapsed), helps: compared && (self.helps || short || unable), ..next }
+    }
+
+    /// RSP-1b, RSP-1c, RSP-1g: the service brake has not followed in time.
+    fn falls_short(&self, config: &Config) -> bool {
+        let [ordinary, emergency, outer] = config.response_brake.0;
         let inner = if self.emergency { emergency } else { ordinary };
-        self.brake.fails(allowed(inner, config), allowed(outer, config)) || unable
+        self.brake.fails(allowed(inner, config), allowed(outer, config))
     }
 
     /// RSP-1a, f, TRQ-7: executed torque against the last output.
@@ -182,12 +190,13 @@ impl Monitors {
 
     /// What was found.
     fn response(&self, inputs: &Inputs, config: &Config) -> Response {
-        let short = self.falls_short(inputs, config);
+        let short = self.falls_short(config);
         let red = inputs.ebs_red.is(true);
-        // RSP-1m: EBS red calls the next means at once, and the one after it as soon as a shortfall is confirmed.
-        let brake = if short && (red || self.short.reached(config.response_retarder)) {
+        // RSP-1m: EBS red calls the next means at once, and the one after it as soon as a shortfall is confirmed; level 3
+        // has no time to try one after the other.
+        let brake = if short && (red || self.emergency || self.short.reached(config.response_retarder)) {
             Deviation::Persistent
-        } else if short || red {
+        } else if short || self.helps || red {
             Deviation::Confirmed
         } else {
             Deviation::None
@@ -202,7 +211,7 @@ impl Monitors {
         let [first, outer] = config.response_steering.0;
         let steering = self.steering.fails(allowed(first, config), allowed(outer, config));
         let faults = Faults::NONE
-            .when(short, Faults::BRAKE_RESPONSE)
+            .when(short || self.helps, Faults::BRAKE_RESPONSE)
             .when(red, Faults::EBS_RED)
             .when(self.brake_over.reached(config.response_overshoot), Faults::BRAKE_OVERSHOOT)
             .when(self.drive.fails(drive, drive), Faults::DRIVE_RESPONSE)
@@ -213,7 +222,8 @@ impl Monitors {
         Response { brake, torque, steering, parking: self.loose, bypass: false, faults }
     }
 
-    /// After vetting: what went out. `total` is service brake and retarder together, `emergency` says level 3.
+    /// After vetting: what went out. `total` is service brake and retarder together, `emergency` says level 3: its
+    /// shorter time begins with it.
     #[must_use]
     pub fn record(self, outputs: &Outputs, total: DecelMs2Q11, emergency: bool) -> Self {
         let gear = match outputs.gear {
@@ -239,6 +249,8 @@ impl Monitors {
             loose: self.loose && epb != Some(EpbState::Released),
             k4: self.k4.record(contact(outputs.contactors.k4)),
             k1: self.k1.record(contact(outputs.contactors.k1)),
+            brake: if emergency && !self.emergency { self.brake.restarted() } else { self.brake },
+            service: outputs.brake.total,
             total,
             emergency,
             torque: outputs.drive.torque,

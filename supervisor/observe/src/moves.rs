@@ -21,7 +21,8 @@ impl<T: Copy + PartialEq> Moves<T> {
     #[must_use]
     pub fn advance(self, position: Option<T>) -> (Self, bool) {
         let alone = self.seen.is_some() && position.is_some() && position != self.seen && position != self.asked;
-        let asked = if alone { None } else { self.asked };
+        // What was asked for and reached is used up: the way there may pass other positions.
+        let asked = if position.is_some() && position == self.asked { None } else { self.asked };
         (Self { seen: position.or(self.seen), asked }, alone)
     }
 

@@ -19,7 +19,7 @@ retained! {
     }
 }
 
-/// A change of more than this is a response, 0.1° (S4 table 4: resolution 0.1°).
+/// A change of more than this, in 0.1°, is a response (S4 table 4: the resolution is 0.1°).
 const RESPONSE: u16 = 3;
 
 impl SteeredAngle {
@@ -38,7 +38,9 @@ impl SteeredAngle {
         if reached {
             let beyond = if rising { measured > target } else { measured < target };
             let over = self.over.run_while(beyond, elapsed);
-            return Self { start: measured, target, off: Timer::STOPPED.run(elapsed), still: Timer::STOPPED, over };
+            // Beyond the target the direction stays that of then, or an overshoot would count as the way back.
+            let start = if beyond { begun.start } else { measured };
+            return Self { start, target, off: Timer::STOPPED.run(elapsed), still: Timer::STOPPED, over };
         }
         let moved = measured.raw().abs_diff(begun.start.raw()) > RESPONSE;
         Self {

@@ -100,7 +100,7 @@ fn inside(offset: OffsetCm, half: OffsetCm) -> bool {
     offset.raw().unsigned_abs() < half.raw().unsigned_abs()
 }
 
-/// What a single sensor's object may permit: (mitigation of any level, the full cap).
+/// FUS-3d: what a single sensor's object may permit: (mitigation of any level, the full cap).
 fn permits(distance: DistanceCm, closing: ClosingCmS, required: DecelMs2Q11, config: &Config) -> (bool, bool) {
     // MIT-8: no gap at all is most severe.
     let severe = required >= config.severe_decel || distance == DistanceCm::ZERO;
@@ -108,7 +108,7 @@ fn permits(distance: DistanceCm, closing: ClosingCmS, required: DecelMs2Q11, con
     (mitigable, severe || reached_or_equal(distance, closing, config.emergency_ttc))
 }
 
-/// Assesses a radar object.
+/// FUS-3c, e: assesses a radar object: it obliges in the corridor, matched or seen consistently.
 #[must_use]
 pub fn radar_object(object: &RadarObject, config: &Config) -> Assessment {
     let RadarObject { distance, offset, closing, updates, class, .. } = *object;

@@ -115,7 +115,7 @@ impl Scene {
     }
 }
 
-/// Assesses every object and merges: MIT-6, the most severe object decides, not the nearest.
+/// MIT-6a: assesses every object and merges: the most severe object decides, not the nearest.
 ///
 /// Perception is *known* when both sensors deliver and no object is too old. A list of a sensor that is lost
 /// obliges nothing and permits nothing.

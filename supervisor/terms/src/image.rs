@@ -25,7 +25,7 @@ impl<const N: usize> Image<N> {
         image
     }
 
-    /// Whether every word and its complement agree.
+    /// SELF-5a: whether every word and its complement agree.
     #[must_use]
     pub fn intact(&self) -> bool {
         self.words.iter().zip(&self.complement).all(|(word, complement)| *word == !*complement)

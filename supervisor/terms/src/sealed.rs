@@ -61,7 +61,7 @@ impl Sealed {
         Self::new(Config::DEFAULT)
     }
 
-    /// Checks ranges and relations.
+    /// SELF-4b, c: checks ranges and relations.
     ///
     /// # Errors
     /// [`ConfigError::Range`] or [`ConfigError::Relation`] with the name.
@@ -73,7 +73,7 @@ impl Sealed {
         }
     }
 
-    /// Takes sealed bytes.
+    /// SELF-4a, d: takes sealed bytes.
     ///
     /// # Errors
     /// The first check that fails, see [`ConfigError`].

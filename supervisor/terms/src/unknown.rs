@@ -98,7 +98,7 @@ const TABLE: [(Group, [Meaning; 12]); 21] = [
     (Group::Perception, [R, R, W, W, U, P, P, P, U, T, P, R]),
 ];
 
-/// The cell of the matrix: what it means for `channel` that `group` is unknown.
+/// CMD-4a: the cell of the matrix: what it means for `channel` that `group` is unknown.
 #[must_use]
 pub fn meaning(group: Group, channel: Channel) -> Meaning {
     let row = TABLE.iter().find(|(row, _)| *row == group).map(|(_, cells)| cells);

@@ -203,12 +203,12 @@ impl Verdict {
     /// Passed; nothing to say about a margin.
     pub const PASS: Self = Self { kind: Kind::Pass, reason: Reason::Within, value: 0, limit: 0, margin: 0 };
 
-    /// Judged against an upper bound.
+    /// CMD-5b, c, d: judged against an upper bound.
     #[must_use]
     pub const fn above(kind: Kind, reason: Reason, value: i32, limit: i32) -> Self {
         Self { kind, reason, value, limit, margin: limit.saturating_sub(value) }
     }
-    /// Judged against a lower bound.
+    /// CMD-5b, c, d: judged against a lower bound.
     #[must_use]
     pub const fn below(kind: Kind, reason: Reason, value: i32, limit: i32) -> Self {
         Self { kind, reason, value, limit, margin: value.saturating_sub(limit) }
@@ -233,7 +233,7 @@ pub struct Verdicts {
 }
 
 impl Verdicts {
-    /// The verdicts in the order of [`Channel`].
+    /// CMD-5a: the verdicts in the order of [`Channel`], one for each.
     #[must_use]
     pub const fn new(list: [Verdict; 12]) -> Self {
         Self { list }

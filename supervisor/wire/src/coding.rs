@@ -28,6 +28,7 @@ fn raw_signal<T: Word>(signal: Signal<T>, not_available: u64) -> u64 {
         Signal::Unknown(_) => not_available,
     }
 }
+/// CMD-1b, c, E2E-1i: "not available" is unknown; what means nothing is refused.
 fn word_signal<T: Word>(raw: u64, not_available: u64) -> Option<Signal<T>> {
     if raw == not_available { Some(Signal::Unknown(Cause::NotAvailable)) } else { word(raw).map(Signal::Known) }
 }

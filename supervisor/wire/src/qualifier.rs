@@ -71,7 +71,7 @@ impl Qualifier {
         (self.phase, self.last) = if qualified { (Phase::Failed, self.last) } else { (Phase::FailedUnqualified, now) };
     }
 
-    /// The age of what was received last, or why it does not count. Once stale, it stays so until a good frame.
+    /// RULE-1a: the age of what was received last, or why it does not count. Once stale, it stays so until a good frame.
     ///
     /// # Errors
     /// The cause of "unknown".

@@ -77,7 +77,7 @@ impl Receiver {
         }
     }
 
-    /// Takes one frame in.
+    /// SELF-10b: takes one frame in; a second sender of an address is refused as such.
     ///
     /// # Errors
     /// What is wrong with it. The message then counts as failed until its next good frame (RULE-5a).

@@ -126,6 +126,7 @@ impl Sender {
         self.slots.get(message.number()).is_some_and(|slot| slot.sent != message.write(values))
     }
 
+    /// CMD-3d, e: under our counter and check field.
     fn send(&mut self, now: Millis, message: Message, id: u32, values: &Values, emit: &mut impl FnMut(Frame)) {
         let Some(slot) = self.slots.get_mut(message.number()) else { return };
         let period = message.period();

@@ -184,7 +184,7 @@ impl Message {
     pub fn id_from(self, source: Source) -> u32 {
         if self.is_command() { self.id() & !0xFF | u32::from(source.address()) } else { self.id() }
     }
-    /// The message with this identifier, and from whom a command comes.
+    /// CMD-1a: the message with this identifier, and from whom a command comes.
     pub(crate) fn identify(id: u32) -> Option<(Self, Source)> {
         let from = |source| Some((*Self::ALL.iter().find(|message| message.id_from(source) == id)?, source));
         from(Source::MainController).or_else(|| from(Source::Supervisor))
@@ -199,13 +199,13 @@ impl Message {
             Protection::Xbr => !(full(2) << 16),
         }
     }
-    /// The payload, still without counter and check field.
+    /// CMD-1d: the payload, still without counter and check field.
     pub(crate) fn write(self, values: &Values) -> u64 {
         let mut payload = self.reserved();
         self.write_signals(&mut payload, values);
         payload
     }
-    /// Takes the signals over.
+    /// CMD-1b, c: takes the signals over, or refuses them all.
     ///
     /// E2E-1e: a bare message has no wrong content, only unknown signals; its other bits are signals of others.
     pub(crate) fn read(self, payload: u64, values: &mut Values) -> Result<(), Fault> {

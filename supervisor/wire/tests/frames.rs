@@ -169,6 +169,19 @@ fn identifiers() {
     }
 }
 
+/// TRQ-2f, CMD-1a: one road leads to the drive torque, whoever asks: no other command carries a torque of the drive, a
+/// throttle or a pedal position.
+#[test]
+fn one_road_to_the_drive() {
+    let commands = Message::ALL.iter().copied().filter(|message| message.is_command());
+    let to_drive = |message: &Message| message.destination() == Destination::Command(Channel::DriveTorque);
+    assert_eq!(commands.clone().filter(to_drive).collect::<Vec<_>>(), [Message::DriveTorque]);
+    let others = commands.filter(|message| !to_drive(message)).flat_map(Message::signals);
+    let names: Vec<_> = others.map(|signal| signal.name).collect();
+    assert!(names.len() > 20, "{names:?}");
+    assert!(!names.iter().any(|name| name.contains("Throttle") || name.contains("Pedal")), "{names:?}");
+}
+
 /// SELF-10b: a command with the supervisor's own address is a second sender of it; an actuator obeys it alone.
 #[test]
 fn sources() {

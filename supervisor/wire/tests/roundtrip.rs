@@ -172,7 +172,7 @@ fn changes() {
     assert_eq!(lamp, Some(2094));
 }
 
-/// CMD-3e: the counter of each message runs on by one per frame, whatever it says and whoever asked for it.
+/// CMD-3d, CMD-3e: the counter of each message runs on by one per frame, whatever it says and whoever asked for it.
 #[test]
 fn counters() {
     let (mut sender, mut random) = (Sender::new(), Random::new(10));

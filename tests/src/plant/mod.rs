@@ -194,8 +194,9 @@ impl<'a> Plant<'a> {
         // Longitudinal balance; what brakes never reverses.
         let weight = p.mass_kg * GRAVITY;
         let pull = drive_force - weight * p.slope;
-        let resist = weight * p.rolling + p.drag * self.speed * self.speed + p.mass_kg * braking;
         let inertia = p.mass_kg * p.rotating;
+        // The brake system closes the loop on the deceleration: it brakes the turning masses, too.
+        let resist = weight * p.rolling + p.drag * self.speed * self.speed + inertia * braking;
         let before = self.speed;
         let free = before + pull / inertia * STEP_S;
         let loss = resist / inertia * STEP_S;
