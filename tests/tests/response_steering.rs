@@ -102,7 +102,7 @@ fn ends_steering() {
     let mut bus = told(30);
     let decision = bus.run_for(210);
     assert!(decision.status.faults.contains(Faults::STEERING_RESPONSE));
-    assert!(decision.envelope.steering.enable.is_err());
+    assert_eq!(decision.envelope.steering.enable, Err(Reason::SteeringResponse));
     assert_eq!(decision.outputs.steering.weight, percent(99), "it fades from there");
     assert!(decision.outputs.warnings.notice_lamp, "and the driver is told");
     let decision = bus.run_for(3_000);
@@ -130,7 +130,6 @@ fn leave_continues() {
 
 /// RSP-1j: beyond the target by more than the band for 500 ms is an overshoot.
 #[test]
-#[ignore = "does not hold yet: the start of the movement is lost at the target (SteeredAngle::advance)"]
 fn overshoot() {
     for sign in [1, -1] {
         let mut bus = told(sign * 30);
@@ -142,5 +141,35 @@ fn overshoot() {
         bus.step();
         stands(&mut bus, sign * 54);
         assert_eq!(reported(&mut bus, Faults::STEERING_OVERSHOOT), None, "2° and 15 % beyond");
+    }
+}
+
+/// MIT-4e, RSP-1k: an angle that faulty steering made is not the driver's: level 1 goes on.
+#[test]
+fn astray_is_no_takeover() {
+    let mut bus = Bus::steering(kmh(30));
+    bus.follows = false;
+    bus.ahead(at(4_399));
+    assert_eq!(bus.step().status.level, Level::One);
+    stands(&mut bus, 810);
+    let mut seen = false;
+    bus.run_with(900, CYCLE, |decision| {
+        seen |= decision.envelope.steering.enable == Err(Reason::SteeringResponse);
+        assert_eq!(decision.status.level, Level::One);
+    });
+    assert!(seen, "it did not follow");
+}
+
+/// RSP-1k, STR-2, RULE-1: a frame that is lost or rejected asks for nothing: steering that did not follow stays barred.
+#[test]
+#[ignore = "does not hold yet: a lost frame counts as asking anew (SteeringState::record)"]
+fn a_lost_frame_asks_for_nothing() {
+    for command in [Command::Absent, Command::Rejected(Rejection::Checksum)] {
+        let mut bus = told(30);
+        bus.run_for(300);
+        bus.commands.steering = command;
+        bus.step();
+        ask(&mut bus, 30);
+        assert_eq!(bus.step().envelope.steering.enable, Err(Reason::SteeringResponse), "{command:?}");
     }
 }
