@@ -25,8 +25,9 @@ Examples:
   supervise analysis                                 check the safety analysis
   supervise trace --html target/trace.html           which code, proof and test belongs to which requirement
 
-Exit codes: 0 done; 1 the analysis or the traceability has findings, or a harness is not proved; 2 bad arguments, files, mapping or configuration;
-3 with --fail-on-intervention, if the supervisor intervened.";
+Exit codes: 0 done; 1 the analysis or the traceability has findings, a harness is not proved, or a bar of the design is not
+met; 2 bad arguments, files, mapping or configuration; 3 with --fail-on-intervention, if the supervisor intervened;
+4 a tool is missing, nothing was measured.";
 
 const REPLAY: &str = "\
 Logs are candump's, in both layouts, plain or gzip:
@@ -129,6 +130,11 @@ pub enum Command {
     /// Trace every requirement to its code, limits, proofs and tests, by the ids in the sources
     #[command(long_about = TRACE)]
     Trace(TraceArgs),
+    /// Count the instructions of every stage of a cycle, and the bytes of code and state
+    ///
+    /// Needs valgrind; without it nothing is measured, and it exits with 4. Writes target/cost.md and
+    /// target/cost.json. Exits with 1 if a bar of the design is not met, or a file does not show what was measured.
+    Cost(Cost),
 }
 
 /// Arguments of `replay`.
@@ -302,4 +308,18 @@ pub struct Prove {
     /// Run nothing: show the record and whether it is stale
     #[arg(long)]
     pub check: bool,
+}
+
+/// Arguments of `cost`.
+#[derive(Debug, Args)]
+pub struct Cost {
+    /// Compare the rows of this file with what was measured
+    #[arg(long, value_name = "FILE")]
+    pub check: Option<PathBuf>,
+    /// Write the rows into this file, between its marks
+    #[arg(long, value_name = "FILE", conflicts_with = "check")]
+    pub write: Option<PathBuf>,
+    /// One more argument for cargo when it builds for the target
+    #[arg(long, value_name = "ARGUMENT", allow_hyphen_values = true)]
+    pub cargo_arg: Vec<String>,
 }

@@ -10,6 +10,7 @@ pub mod analysis;
 pub mod candump;
 pub mod cli;
 pub mod commands;
+pub mod cost;
 pub mod cycle;
 pub mod difference;
 pub mod digest;

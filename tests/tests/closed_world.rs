@@ -136,7 +136,7 @@ fn threatened(milliseconds: u16) -> Bus {
 
 fn warned(class: Class) -> Bus {
     let mut bus = Bus::driving(FAST);
-    bus.ahead(RadarObject { class, ..object(3_900, 1_000) });
+    bus.ahead_matched(object(3_900, 1_000), class);
     bus.step();
     bus
 }

@@ -145,21 +145,25 @@ fn with_the_steering_angle_unknown_nothing_enters() {
 #[test]
 fn only_a_valid_obstacle_obliges() {
     for (class, updates, obliges) in [
-        (Class::Unmatched, 0, false),
-        (Class::Unmatched, 1, false),
-        (Class::Unmatched, 2, false),
-        (Class::Unmatched, 3, true),
-        (Class::Unmatched, 255, true),
-        (Class::Object, 0, true),
-        (Class::Pedestrian, 1, true),
+        (None, 0, false),
+        (None, 1, false),
+        (None, 2, false),
+        (None, 3, true),
+        (None, 255, true),
+        (Some(Class::Unclassified), 0, true),
+        (Some(Class::Object), 0, true),
+        (Some(Class::Pedestrian), 1, true),
     ] {
         for (offset, inside) in
             [(0, true), (160, true), (-160, true), (161, false), (-161, false), (i16::MIN, false), (i16::MAX, false)]
         {
-            let object =
-                RadarObject { class, updates: Count::new(updates), offset: OffsetCm::new(offset), ..at(2_000) };
+            let object = RadarObject { updates: Count::new(updates), offset: OffsetCm::new(offset), ..at(2_000) };
             let level = if obliges && inside { Level::Three } else { Level::None };
-            assert_eq!(Bus::approaching(object).1.status.level, level, "{class:?} {updates} {offset}");
+            let (_, decision) = match class {
+                Some(class) => Bus::approaching_matched(object, class),
+                None => Bus::approaching(object),
+            };
+            assert_eq!(decision.status.level, level, "{class:?} {updates} {offset}");
         }
     }
 }

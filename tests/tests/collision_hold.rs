@@ -23,7 +23,7 @@ fn a_begun_level_does_not_fall_while_its_object_closes() {
 fn a_closing_object_on_a_new_track_has_not_gone() {
     for level in LEVELS {
         let mut bus = Bus::mitigating(level);
-        bus.ahead(RadarObject { class: Class::Unmatched, updates: Count::new(1), ..at(3_000) });
+        bus.ahead(RadarObject { updates: Count::new(1), ..at(3_000) });
         assert!(bus.run_for(2_000).status.level >= level, "{level:?}");
     }
 }

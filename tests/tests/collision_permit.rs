@@ -115,7 +115,7 @@ fn the_electric_part_is_no_way_round_the_cap() {
 fn a_near_object_of_any_sensor_raises_the_cap() {
     for (milliseconds, raised) in [(3_200, true), (3_201, false), (0, true)] {
         // Below 10 km/h, so that nothing is obliged.
-        let once = RadarObject { class: Class::Unmatched, updates: Count::new(1), ..at(milliseconds) };
+        let once = RadarObject { updates: Count::new(1), ..at(milliseconds) };
         let mut by_radar = Bus::driving(kmh(9));
         by_radar.ahead(once);
         let mut by_camera = Bus::driving(kmh(9));
@@ -135,7 +135,7 @@ fn a_near_object_of_any_sensor_raises_the_cap() {
 #[test]
 fn a_near_object_beside_the_corridor_raises_the_cap() {
     let mut bus = Bus::driving(kmh(50));
-    bus.ahead(RadarObject { class: Class::Pedestrian, offset: OffsetCm::new(190), ..at(2_000) });
+    bus.ahead_matched(RadarObject { offset: OffsetCm::new(190), ..at(2_000) }, Class::Pedestrian);
     bus.ask_brake(ms2(600));
     let decision = bus.step();
     assert_eq!(decision.status.level, Level::None);
@@ -255,11 +255,11 @@ fn a_warning_goes_on_below_its_time_and_offset() {
             (on - 1, i16::MIN, false),
             (0, 0, true),
         ] {
-            let object = RadarObject { class, offset: OffsetCm::new(lateral), ..at(time) };
-            assert_eq!(of(&Bus::approaching(object).1), expected, "{class:?} {time} {lateral}");
-            assert!(!of(&Bus::approaching(RadarObject { class: other, ..object }).1), "the other class");
+            let object = RadarObject { offset: OffsetCm::new(lateral), ..at(time) };
+            assert_eq!(of(&Bus::approaching_matched(object, class).1), expected, "{class:?} {time} {lateral}");
+            assert!(!of(&Bus::approaching_matched(object, other).1), "the other class");
         }
-        let (_, decision) = Bus::approaching(RadarObject { class, ..object(100, 0) });
+        let (_, decision) = Bus::approaching_matched(object(100, 0), class);
         assert!(!of(&decision), "not closing");
     }
 }
@@ -270,7 +270,7 @@ fn a_warning_needs_no_speed() {
     for Alarm { class, on, of, .. } in ALARMS {
         for speed in [kmh(0), kmh(9)] {
             let mut bus = Bus::driving(speed);
-            bus.ahead(RadarObject { class, ..at(on - 1) });
+            bus.ahead_matched(at(on - 1), class);
             assert!(of(&bus.step()), "{class:?}");
         }
     }
@@ -281,13 +281,13 @@ fn a_warning_needs_no_speed() {
 fn a_warning_goes_off_beyond_4_5_s() {
     for Alarm { class, on, of, .. } in ALARMS {
         let begun = || {
-            let (bus, decision) = Bus::approaching(RadarObject { class, ..at(on - 1) });
+            let (bus, decision) = Bus::approaching_matched(at(on - 1), class);
             assert!(of(&decision));
             bus
         };
         for (time, stays) in [(on, true), (4_499, true), (4_500, true), (4_501, false), (20_000, false)] {
             let mut bus = begun();
-            bus.ahead(RadarObject { class, ..at(time) });
+            bus.ahead_matched(at(time), class);
             assert_eq!(of(&bus.step()), stays, "{class:?} {time}");
         }
         let mut bus = begun();
@@ -309,8 +309,8 @@ fn a_warning_goes_off_beyond_4_5_s() {
 #[test]
 fn an_object_beside_does_not_end_a_warning() {
     for Alarm { class, other, on, of, .. } in ALARMS {
-        let (mut bus, _) = Bus::approaching(RadarObject { class, ..at(on - 1) });
-        assert!(bus.scene.radar.push(RadarObject { class: other, ..object(100, -10) }).is_ok());
+        let (mut bus, _) = Bus::approaching_matched(at(on - 1), class);
+        bus.add_matched(RadarObject { offset: OffsetCm::new(-100), ..object(1_000, -10) }, other);
         assert!(of(&bus.run_for(1_000)));
     }
 }
@@ -330,7 +330,7 @@ fn an_obliged_warning_goes_out_whatever_is_asked_for() {
         for command in [Command::Fresh(Warnings::NEUTRAL), Command::Absent, Command::Rejected(Rejection::Field)] {
             let mut bus = Bus::driving(kmh(50));
             bus.commands.warnings = command;
-            bus.ahead(RadarObject { class, ..at(on - 1) });
+            bus.ahead_matched(at(on - 1), class);
             assert!(of(&bus.step()), "{command:?}");
         }
     }

@@ -2,6 +2,7 @@
 
 mod analysis;
 mod config;
+mod cost;
 mod drives;
 mod limits;
 mod prove;
@@ -20,6 +21,8 @@ pub const FINDINGS: u8 = 1;
 pub const BAD: u8 = 2;
 /// The supervisor intervened, and `--fail-on-intervention` was given.
 pub const INTERVENED: u8 = 3;
+/// A tool is missing, so nothing was measured.
+pub const NOT_RUN: u8 = 4;
 
 /// What a command came to: an exit code, or what was bad.
 pub type Outcome = Result<u8, Box<dyn std::error::Error>>;
@@ -35,6 +38,7 @@ pub fn run(cli: &Cli) -> ExitCode {
         Some(Command::Analysis(arguments)) => analysis::run(arguments),
         Some(Command::Prove(arguments)) => prove::run(arguments),
         Some(Command::Trace(arguments)) => trace::run(arguments),
+        Some(Command::Cost(arguments)) => cost::run(arguments),
     };
     match outcome {
         Ok(code) => ExitCode::from(code),

@@ -4,8 +4,8 @@ use std::collections::HashMap;
 
 use supervisor::wire::{Qualifier, Timing};
 use supervisor::{
-    CameraObject, Channel, Command, Commands, Inputs, Millis, OffsetCm, Outputs, PixelBox, RadarObject, Rejection,
-    Scene, Signal,
+    CameraObject, Channel, Class, Command, Commands, Inputs, Millis, OffsetCm, Outputs, PixelBox, RadarObject,
+    Rejection, Scene, Signal,
 };
 
 use super::extract::Extraction;
@@ -53,7 +53,7 @@ pub(super) struct ObjectSlot {
     pub closing: Extraction,
     pub class: Option<Extraction>,
     pub present: Option<Extraction>,
-    pub seen: Option<(Millis, Option<RadarObject>)>,
+    pub seen: Option<(Millis, Option<(RadarObject, Class)>)>,
 }
 
 /// What a frame fills.
@@ -137,12 +137,13 @@ impl Mapped {
             let current = mine().filter_map(|slot| {
                 let (at, object) = slot.seen?;
                 let age = elapsed(now, at);
-                (age <= self.object_age).then_some(object).flatten().map(|object| RadarObject { age, ..object })
+                let aged = |(object, class)| (RadarObject { age, ..object }, class);
+                (age <= self.object_age).then_some(object).flatten().map(aged)
             });
             if camera {
                 scene.camera_known = known;
                 scene.camera.clear();
-                for RadarObject { distance, closing, age, class, .. } in current {
+                for (RadarObject { distance, closing, age, .. }, class) in current {
                     let object = CameraObject { pixels: PixelBox::default(), class, distance, closing, age };
                     // The list is as long as the supervisor's; `bind` refuses longer ones.
                     if scene.camera.push(object).is_err() {
@@ -152,7 +153,7 @@ impl Mapped {
             } else {
                 scene.radar_known = known;
                 scene.radar.clear();
-                for object in current {
+                for (object, _) in current {
                     if scene.radar.push(object).is_err() {
                         break;
                     }
@@ -238,16 +239,17 @@ impl ObjectSlot {
         let (distance, closing) = (read(&self.distance)?, read(&self.closing)?);
         let offset = self.offset.as_ref().map_or(Some(Signal::Known(0)), read)?;
         let class = self.class.as_ref().map_or(Some(Signal::Known(0)), read)?;
-        let updates = self.seen.and_then(|(_, object)| object).map_or(0, |object| object.updates.raw());
+        let updates = self.seen.and_then(|(_, object)| object).map_or(0, |(object, _)| object.updates.raw());
         let object = || {
-            Some(RadarObject {
+            let class = class.known().and_then(Value::from_raw).unwrap_or(Class::Unclassified);
+            let object = RadarObject {
                 distance: Value::from_raw(distance.known()?)?,
                 offset: OffsetCm::from_raw(offset.known()?)?,
                 closing: Value::from_raw(closing.known()?)?,
                 age: Millis::ZERO,
                 updates: supervisor::Count::new(updates.saturating_add(1)),
-                class: class.known().and_then(Value::from_raw).unwrap_or(supervisor::Class::Unmatched),
-            })
+            };
+            Some((object, class))
         };
         self.seen = Some((now, present.is(1).then(object).flatten()));
         Some(())

@@ -137,7 +137,7 @@ pub struct ObjectEntry {
     pub offset: Option<Spanned<SignalEntry>>,
     /// Closing speed in m/s, positive while the gap shrinks.
     pub closing: Spanned<SignalEntry>,
-    /// Class: `unmatched`, `object`, `pedestrian`; without it `unmatched`.
+    /// Class, of a camera's object: `unclassified`, `object`, `pedestrian`; without it `unclassified`.
     pub class: Option<Spanned<SignalEntry>>,
     /// Whether the place holds an object: `yes`, `no`; without it every frame does.
     pub present: Option<Spanned<SignalEntry>>,

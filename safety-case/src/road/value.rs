@@ -113,8 +113,8 @@ numbers! {
     TorqueNmQ10: "Nm", 1024.0;
     BarTorque50mNm: "Nm", 20.0;
     CurrentDeciA: "A", 10.0;
-    Mass10Kg: "t", 100.0;
-    Pressure5KPa: "bar", 20.0;
+    Mass10Kg: "kg", 0.1;
+    Pressure5KPa: "kPa", 0.2;
     DistanceCm: "m", 100.0;
     OffsetCm: "m", 100.0;
     ClosingCmS: "m/s", 100.0;

@@ -42,7 +42,7 @@ mod steering;
 mod step;
 mod vet;
 
-pub use supervisor_observe::{Clock, Follow, Monitors, Moves, SteeredAngle, Ticks};
+pub use supervisor_observe::{Clock, Evidence, Follow, Monitors, Moves, SteeredAngle, Ticks};
 pub use supervisor_terms::*;
 
 pub use boot::{Boot, Pending};

@@ -77,6 +77,27 @@ impl State {
         Self { latches: Latches::with(Faults::STATE), ..Self::boot(ResetCause::Other, None) }
     }
 
+    /// SELF-5c: the same, with what the whole copy of a damaged image still obliges; it permits nothing.
+    #[must_use]
+    pub fn damaged(image: &StateImage) -> Self {
+        let fresh = Self::corrupted();
+        let Some(old) = image.recover::<Self>() else { return fresh };
+        Self {
+            boot: fresh.boot,
+            latches: Latches::with(old.latches.faults.with(Faults::STATE)),
+            seat: SeatState { occupied: fresh.seat.occupied, ..old.seat },
+            parking: Parking { pedal: fresh.parking.pedal, ..old.parking },
+            high_voltage: HighVoltage {
+                restart: fresh.high_voltage.restart,
+                key: fresh.high_voltage.key,
+                ..old.high_voltage
+            },
+            drive: Drive { release_needed: true, ..fresh.drive },
+            flow: fresh.flow,
+            ..old
+        }
+    }
+
     /// What the integrator persists now (SELF-9).
     #[must_use]
     pub fn record(&self) -> Record {

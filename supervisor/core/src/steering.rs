@@ -103,8 +103,9 @@ impl SteeringState {
             weight: outputs.steering.weight,
             angle: outputs.steering.angle,
             overlay: outputs.steering.overlay,
-            barred: self.barred && asked == Some(true),
-            astray: self.astray && asked == Some(true),
+            // A lost command is no evidence that it is asked for anew.
+            barred: self.barred && asked != Some(false),
+            astray: self.astray && asked != Some(false),
             lost: asked.is_none() && outputs.steering.weight > Percent::ZERO,
             ..self
         }

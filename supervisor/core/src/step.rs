@@ -67,7 +67,7 @@ pub fn step(
     threat: &Threat,
     commands: &Commands,
 ) -> Decision {
-    let mut state = image.decode().unwrap_or_else(State::corrupted);
+    let mut state = image.decode().unwrap_or_else(|| State::damaged(image));
     let flow = flow.pass(Checkpoint::Decode);
     let config = sealed.intact().unwrap_or_else(|| {
         state.latches.faults = state.latches.faults.with(Faults::CONFIGURATION);

@@ -1,9 +1,12 @@
 //! One object: time to collision, second opinion, and what it may oblige or permit.
 
+use core::cmp::{Ordering, Reverse};
+
 use supervisor_core::{ClosingCmS, Config, DecelMs2Q11, DistanceCm, Level, Millis, Object, OffsetCm};
 
 use crate::kernel::{farther_than, nearer_than};
 use crate::scene::{CameraObject, Class, RadarObject};
+use crate::time::moved;
 
 /// What one object, or several merged, may oblige and permit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -108,20 +111,23 @@ fn permits(distance: DistanceCm, closing: ClosingCmS, required: DecelMs2Q11, con
     (mitigable, severe || reached_or_equal(distance, closing, config.emergency_ttc))
 }
 
-/// FUS-3c, e: assesses a radar object: it obliges in the corridor, matched or seen consistently.
+/// FUS-3c, e: assesses a radar object as it is now (FUS-1a): it obliges in the corridor, matched or seen consistently.
+/// `class` is what the camera says, `None` if unmatched.
 #[must_use]
-pub fn radar_object(object: &RadarObject, config: &Config) -> Assessment {
-    let RadarObject { distance, offset, closing, updates, class, .. } = *object;
+pub fn radar_object(object: &RadarObject, class: Option<Class>, config: &Config) -> Assessment {
+    let RadarObject { distance, offset, closing, age, updates } = *object;
+    let distance = moved(distance, closing, age, Millis::ZERO);
     let in_corridor = within(offset, config.corridor);
-    let certain = class != Class::Unmatched || updates >= config.consistent_updates;
+    let certain = class.is_some() || updates >= config.consistent_updates;
     let required = required(distance, closing, config);
     let (mitigable, emergency) = permits(distance, closing, required, config);
     let valid = in_corridor && certain;
     let level = if valid { level(distance, closing, config) } else { Level::None };
 
     // FCW-1, PCW-1: "distance" is the lateral offset (reading a); what is not a pedestrian is an object.
-    let pedestrian = certain && class == Class::Pedestrian && inside(offset, config.pedestrian_offset);
-    let forward = certain && class != Class::Pedestrian && inside(offset, config.forward_offset);
+    let walks = class == Some(Class::Pedestrian);
+    let pedestrian = walks && inside(offset, config.pedestrian_offset);
+    let forward = certain && !walks && inside(offset, config.forward_offset);
     let [forward_on, forward_off] = config.forward_ttc.0;
     let [pedestrian_on, pedestrian_off] = config.pedestrian_ttc.0;
 
@@ -145,19 +151,25 @@ pub fn radar_object(object: &RadarObject, config: &Config) -> Assessment {
     }
 }
 
-/// Assesses a camera object: alone it obliges nothing, but it may permit (rule 1).
+/// Assesses a camera object as it is now: alone it obliges nothing, but it may permit, matched or not (rule 1).
 #[must_use]
 pub fn camera_object(object: &CameraObject, config: &Config) -> Assessment {
-    let required = required(object.distance, object.closing, config);
-    let (mitigable, emergency) = permits(object.distance, object.closing, required, config);
+    let CameraObject { distance, closing, age, .. } = *object;
+    let distance = moved(distance, closing, age, Millis::ZERO);
+    let required = required(distance, closing, config);
+    let (mitigable, emergency) = permits(distance, closing, required, config);
     Assessment { mitigable, emergency, ..Assessment::NOTHING }
 }
 
-/// Merges two assessments: everything that either says. Commutative but for the deciding object, associative.
+/// Merges two assessments: everything that either says. Commutative and associative: no order of a list decides.
 #[must_use]
 pub fn merge(first: Assessment, second: Assessment) -> Assessment {
-    let severity = |assessment: &Assessment| (assessment.object.is_some(), assessment.level, assessment.required);
-    let decides = if severity(&second) > severity(&first) { second.object } else { first.object };
+    // Between equally severe objects their values decide, the nearer one first.
+    let place = |object: Object| (Reverse(object.distance), object.closing, object.offset);
+    let severity = |of: &Assessment| (of.object.is_some(), of.level, of.required);
+    let order = severity(&second).cmp(&severity(&first));
+    let nearer = order == Ordering::Equal && second.object.map(place) > first.object.map(place);
+    let decides = if nearer || order == Ordering::Greater { second.object } else { first.object };
     Assessment {
         level: first.level.max(second.level),
         closing: first.closing || second.closing,

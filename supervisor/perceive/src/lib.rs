@@ -1,8 +1,10 @@
-//! From object lists to [`Threat`](supervisor_core::Threat): time to collision, the second opinion, the most severe object (S1 §3.1).
+//! From object lists to [`Threat`](supervisor_core::Threat): fusion, time to collision, the second opinion, the most
+//! severe object (S1 §3.1).
 //!
-//! Each object is assessed alone, then the assessments are merged; both are pure. An object may *oblige* only if
-//! it is valid: in the corridor, and matched by both sensors or seen consistently by the radar (FUS-3). Any object
-//! of a single sensor may *permit*.
+//! Radar and camera objects are brought to one time (FUS-1) and into one picture (FUS-2), and matched (FUS-3). Each
+//! object is assessed alone, then the assessments are merged; all of it is pure, and keeps nothing from one cycle to
+//! the next. An object may *oblige* only if it is valid: in the corridor, and matched by both sensors or seen
+//! consistently by the radar. Any object of a single sensor may *permit*.
 #![no_std]
 #![forbid(unsafe_code)]
 #![deny(
@@ -17,8 +19,14 @@
 extern crate kani;
 
 mod assess;
+mod fusion;
 mod kernel;
+mod picture;
 mod scene;
+mod time;
 
 pub use assess::{Assessment, camera_object, merge, radar_object, reached, reached_or_equal};
+pub use fusion::{Boxed, Overlap, matches};
+pub use picture::{Foot, Lens, Outline, STEPS, Size, Span};
 pub use scene::{CameraObject, Class, MAX_CAMERA, MAX_RADAR, PixelBox, RadarObject, Scene, perceive};
+pub use time::moved;

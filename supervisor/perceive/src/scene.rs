@@ -1,53 +1,30 @@
 //! The object lists of one cycle, and what they mean together.
 
 use heapless::Vec;
-use supervisor_core::{Alert, ClosingCmS, Config, Count, DistanceCm, Millis, OffsetCm, Threat};
+use supervisor_core::{Alert, Closing, ClosingCmS, Config, Count, DistanceCm, Millis, OffsetCm, Threat, codes};
 
 use crate::assess::{Assessment, camera_object, merge, radar_object};
+use crate::fusion::matches;
 
 /// Longest radar list.
 pub const MAX_RADAR: usize = 32;
 /// Longest camera list.
 pub const MAX_CAMERA: usize = 16;
 
-/// What an object is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(kani, derive(kani::Arbitrary))]
-pub enum Class {
-    /// Seen by the radar only: not matched.
-    Unmatched,
-    /// A vehicle or another thing.
-    Object,
-    /// A pedestrian.
-    Pedestrian,
-}
-
-impl Class {
-    /// Every class, in the order of the codes.
-    pub const ALL: &'static [Self] = &[Self::Unmatched, Self::Object, Self::Pedestrian];
-    /// The stable code.
-    #[must_use]
-    pub const fn code(self) -> u8 {
-        match self {
-            Self::Unmatched => 0,
-            Self::Object => 1,
-            Self::Pedestrian => 2,
-        }
-    }
-    /// The class with this code.
-    #[must_use]
-    pub const fn from_code(code: u8) -> Option<Self> {
-        match code {
-            0 => Some(Self::Unmatched),
-            1 => Some(Self::Object),
-            2 => Some(Self::Pedestrian),
-            _ => None,
-        }
+codes! {
+    /// What the camera takes an object for.
+    Class {
+        /// It does not say; treated as an object.
+        Unclassified = 0,
+        /// A vehicle or another thing.
+        Object = 1,
+        /// A pedestrian, or a cyclist.
+        Pedestrian = 2,
     }
 }
 
-/// An object of the radar.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// An object of the radar. Ordered by its values, so that no order of a list decides anything.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[cfg_attr(kani, derive(kani::Arbitrary))]
 pub struct RadarObject {
     /// Longitudinal distance.
@@ -58,14 +35,23 @@ pub struct RadarObject {
     pub closing: ClosingCmS,
     /// Age of the measurement.
     pub age: Millis,
-    /// In how many updates in a row this object was seen, saturating.
+    /// In how many updates in a row the radar's own tracker has seen it, saturating (FUS-3c).
     pub updates: Count,
-    /// Its class if the camera has matched it.
-    pub class: Class,
+}
+
+impl RadarObject {
+    /// All zeros: a place without an object.
+    pub const NONE: Self = Self {
+        distance: DistanceCm::ZERO,
+        offset: OffsetCm::ZERO,
+        closing: ClosingCmS::ZERO,
+        age: Millis::ZERO,
+        updates: Count::ZERO,
+    };
 }
 
 /// A box in the camera's image, in pixels.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 #[cfg_attr(kani, derive(kani::Arbitrary))]
 pub struct PixelBox {
     /// Left edge.
@@ -78,8 +64,8 @@ pub struct PixelBox {
     pub height: u16,
 }
 
-/// An object of the camera.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// An object of the camera. Ordered by its values.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[cfg_attr(kani, derive(kani::Arbitrary))]
 pub struct CameraObject {
     /// Its box in the image.
@@ -92,6 +78,17 @@ pub struct CameraObject {
     pub closing: ClosingCmS,
     /// Age of the measurement.
     pub age: Millis,
+}
+
+impl CameraObject {
+    /// All zeros: a place without an object.
+    pub const NONE: Self = Self {
+        pixels: PixelBox { left: 0, top: 0, width: 0, height: 0 },
+        class: Class::Unclassified,
+        distance: DistanceCm::ZERO,
+        closing: ClosingCmS::ZERO,
+        age: Millis::ZERO,
+    };
 }
 
 /// Both object lists of one cycle.
@@ -115,22 +112,30 @@ impl Scene {
     }
 }
 
-/// MIT-6a: assesses every object and merges: the most severe object decides, not the nearest.
+/// MIT-6a: matches, assesses every object and merges: the most severe object decides, not the nearest.
 ///
 /// Perception is *known* when both sensors deliver and no object is too old. A list of a sensor that is lost
-/// obliges nothing and permits nothing.
+/// obliges nothing and permits nothing, and matches nothing.
 #[must_use]
 pub fn perceive(scene: &Scene, config: &Config) -> Threat {
-    let fresh = |age: Millis| age <= config.object_age;
-    let radar = scene.radar.iter().filter(|_| scene.radar_known);
-    let camera = scene.camera.iter().filter(|_| scene.camera_known);
-    let aged = radar.clone().any(|object| !fresh(object.age)) || camera.clone().any(|object| !fresh(object.age));
-    let known = scene.radar_known && scene.camera_known && !aged;
-    let merged = radar
-        .filter(|object| fresh(object.age))
-        .map(|object| radar_object(object, config))
-        .chain(camera.filter(|object| fresh(object.age)).map(|object| camera_object(object, config)))
-        .fold(Assessment::NOTHING, merge);
+    let radar: &[RadarObject] = if scene.radar_known { &scene.radar } else { &[] };
+    let camera: &[CameraObject] = if scene.camera_known { &scene.camera } else { &[] };
+    let mut known = scene.radar_known && scene.camera_known;
+    let mut merged = Assessment::NOTHING;
+    for (object, class) in radar.iter().zip(matches(radar, camera, config)) {
+        if object.age <= config.object_age {
+            merged = merge(merged, radar_object(object, class, config));
+        } else {
+            known = false;
+        }
+    }
+    for object in camera {
+        if object.age <= config.object_age {
+            merged = merge(merged, camera_object(object, config));
+        } else {
+            known = false;
+        }
+    }
     merged.threat(known)
 }
 
@@ -138,7 +143,6 @@ impl Assessment {
     /// What the merged assessment says, given whether perception is known.
     #[must_use]
     pub fn threat(self, known: bool) -> Threat {
-        use supervisor_core::Closing;
         let alert = |begins, holds| match (begins, holds, known) {
             (true, _, _) => Alert::On,
             (false, false, true) => Alert::Off,

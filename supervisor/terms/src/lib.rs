@@ -48,7 +48,8 @@ pub use status::{Mode, Occupancy, Record, ResetCause, Stage};
 pub use threat::{Alert, Closing, Level, Object, Threat};
 pub use units::{
     AngleDeciDeg, BarTorque50mNm, ClosingCmS, Count, CurrentDeciA, DecelMs2Q11, DistanceCm, Mass10Kg, Millis, OffsetCm,
-    Pedal250, Percent, PercentPerS, Pressure5KPa, RateDeciDegS, Rest, SpeedKmhQ8, Timer, TorqueNmQ10,
+    Pedal250, Percent, PercentPerS, Pixel, Pressure5KPa, RateDeciDegS, Rest, RotationQ14, SpeedKmhQ8, Timer,
+    TorqueNmQ10,
 };
 pub use unknown::{Group, Meaning, meaning};
 pub use verdict::{ExitReason, Faults, Kind, Reason, Verdict, Verdicts};

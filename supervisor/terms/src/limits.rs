@@ -5,7 +5,7 @@
 
 use crate::units::{
     AngleDeciDeg, BarTorque50mNm, Count, CurrentDeciA, DecelMs2Q11, DistanceCm, Mass10Kg, Millis, OffsetCm, Pedal250,
-    Percent, PercentPerS, Pressure5KPa, RateDeciDegS, SpeedKmhQ8, TorqueNmQ10,
+    Percent, PercentPerS, Pixel, Pressure5KPa, RateDeciDegS, RotationQ14, SpeedKmhQ8, TorqueNmQ10,
 };
 use crate::word::permit;
 use crate::word::{Word, Words};
@@ -47,7 +47,8 @@ macro_rules! field {
     )*};
 }
 field!(AngleDeciDeg, BarTorque50mNm, CurrentDeciA, DecelMs2Q11, DistanceCm, Millis, OffsetCm);
-field!(Mass10Kg, Pressure5KPa, Count, PercentPerS, Pedal250, Percent, RateDeciDegS, SpeedKmhQ8, TorqueNmQ10);
+field!(Mass10Kg, Pressure5KPa, Count, PercentPerS, Pedal250, Percent, Pixel, RateDeciDegS, RotationQ14);
+field!(SpeedKmhQ8, TorqueNmQ10);
 
 /// A row of values at fixed points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -221,6 +222,28 @@ limits! {
     /// Second opinion: a deceleration needed beyond this is severe.
     severe_decel: DecelMs2Q11 = [7168], 2048..=12288, "1/2048 m/s²", "own (the comfort cap)", "MIT-8a";
 
+    // Fusion (S1 §3.1.1): calibration of radar and camera. Radar axes: ahead, left, up; camera axes: right, down, ahead.
+    /// Height of the radar above the road.
+    radar_height: DistanceCm = [50], 10..=300, "cm", "own", "FUS-2a";
+    /// Rotation from radar to camera axes, row by row.
+    camera_rotation: Row<RotationQ14, 9> = [0, -16384, 0, 0, 0, -16384, 16384, 0, 0], -16384..=16384, "1/16384", "own (no yaw, pitch, roll)", "FUS-2a";
+    /// The radar as the camera sees it: how far to the right, below and ahead of it.
+    camera_translation: Row<OffsetCm, 3> = [0, 120, 50], -1000..=1000, "cm", "own (behind the windscreen)", "FUS-2a";
+    /// Focal length in the columns and in the rows of the image.
+    focal_length: Row<Pixel, 2> = [1200, 1200], 200..=4096, "px", "own (56° by 33°)", "FUS-2a";
+    /// Where the camera's axis meets the image: column, row.
+    principal_point: Row<Pixel, 2> = [640, 360], 0..=4095, "px", "own (centre)", "FUS-2a";
+    /// Columns and rows of the image.
+    image_size: Row<Pixel, 2> = [1280, 720], 64..=4096, "px", "own (720p)", "FUS-2a";
+    /// Width and height that an object is taken to have.
+    object_size: Row<DistanceCm, 2> = [200, 200], 20..=500, "cm", "own (between a car and a bus: 67 % and 49 % of union)", "FUS-2a";
+    /// Width and height that a pedestrian is taken to have.
+    pedestrian_size: Row<DistanceCm, 2> = [50, 170], 20..=300, "cm", "own", "FUS-2a";
+    /// Beyond this depth nothing matches: a car is 14 pixels wide.
+    match_range: DistanceCm = [15000], 1000..=32767, "cm", "own", "FUS-3a";
+    /// Boxes match when their intersection is more than this much of their union.
+    match_iou: Percent = [30], 5..=95, "%", "own (true sizes differ: a bus straight ahead has 49 %)", "FUS-3a";
+
     // Braking (PHB-1, TRQ-3, E2E-2, BODY-1)
     /// Greatest total deceleration without a hazard: standing passengers.
     comfort_cap: DecelMs2Q11 = [7168], 2048..=12288, "1/2048 m/s²", "own (3.5 m/s²)", "PHB-1a";
@@ -344,7 +367,30 @@ fn falling<T: PartialOrd + Copy>(values: &[T]) -> bool {
     values.is_sorted_by(|earlier, later| earlier >= later)
 }
 
+/// 2¹⁴, the 1 of a rotation, squared; and the hundredth of it that rounding and calibration may leave.
+const UNIT_SQUARE: i32 = 1 << 28;
+const UNIT_TOLERANCE: i32 = UNIT_SQUARE / 100;
+/// cos 45°: a camera turned further does not look ahead, or is not upright.
+const HALF_TURNED: i16 = 11_585;
+
+/// A row of a rotation matrix has length 1. Sums that saturate are far beyond the tolerance.
+fn of_length_one(row: [RotationQ14; 3]) -> bool {
+    let [x, y, z] = row.map(|element| element.wide().saturating_mul(element.wide()));
+    x.saturating_add(y).saturating_add(z).saturating_sub(UNIT_SQUARE).saturating_abs() <= UNIT_TOLERANCE
+}
+
 impl Config {
+    /// The camera looks ahead, upright and not mirrored, and no row of its rotation stretches.
+    fn camera_looks_ahead(&self) -> bool {
+        let [rx, ry, rz, dx, dy, dz, ax, ay, az] = self.camera_rotation.0;
+        ry.raw() <= -HALF_TURNED
+            && dz.raw() <= -HALF_TURNED
+            && ax.raw() >= HALF_TURNED
+            && of_length_one([rx, ry, rz])
+            && of_length_one([dx, dy, dz])
+            && of_length_one([ax, ay, az])
+    }
+
     /// The first relation between values that does not hold.
     #[must_use]
     pub fn broken_relation(&self) -> Option<&'static str> {
@@ -352,6 +398,7 @@ impl Config {
         let [enter_one, enter_two, _] = self.level_angle.0;
         let [_, _, decel_three] = self.level_decel.0;
         let [ordinary, emergency, outer] = self.response_brake.0;
+        let ([columns, rows], [column, row]) = (self.image_size.0, self.principal_point.0);
         let leave_greatest = self.leave_decel.0.last().copied().unwrap_or(self.leave_hold);
         let broken: Result<(), &'static str> = permit!(
             (self.cycle_nominal >= self.cycle_least && self.cycle_nominal <= self.cycle_greatest) => "cycle_least <= cycle_nominal <= cycle_greatest",
@@ -368,6 +415,8 @@ impl Config {
             (rising(&self.level_decel.0) && decel_three <= self.brake_cap) => "level_decel rises with the level, up to brake_cap",
             (enter_one <= exit_one && enter_two <= exit_two) => "level_angle <= level_exit_angle",
             (rising(&self.forward_ttc.0) && rising(&self.pedestrian_ttc.0)) => "warnings go on below and off above",
+            (self.camera_looks_ahead()) => "camera_rotation looks ahead, upright, its rows of length 1",
+            (column < columns && row < rows) => "principal_point inside image_size",
             (self.comfort_cap <= self.brake_cap) => "comfort_cap <= brake_cap",
             (rising(&self.pedal_map.0)) => "pedal_map rises with the pedal",
             (falling(&self.steering_angle.0) && falling(&self.steering_rate.0)) => "steering_angle, steering_rate fall with speed",

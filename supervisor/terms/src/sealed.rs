@@ -122,6 +122,22 @@ impl Sealed {
         (digest(&self.config) == self.digest).then_some(&self.config)
     }
 
+    /// The same with bit `bit` of value `index` (in the order of the table) flipped, the digest left as it was: fault
+    /// injection in safe code. `None` if the value at rest has no such bit.
+    #[must_use]
+    pub fn with_flipped_bit(&self, index: usize, bit: u32) -> Option<Self> {
+        let mut words = [0_u32; <Config as Words>::COUNT];
+        let mut slots = words.iter_mut();
+        self.config.write(&mut |word| {
+            if let Some(slot) = slots.next() {
+                *slot = word;
+            }
+        });
+        *words.get_mut(index)? ^= 1_u32.checked_shl(bit)?;
+        let mut words = words.into_iter();
+        Some(Self { config: Config::read(&mut || words.next())?, digest: self.digest })
+    }
+
     /// The same with bit `bit` of the digest flipped: fault injection in safe code.
     #[must_use]
     pub const fn with_flipped_digest(mut self, bit: u32) -> Self {

@@ -71,6 +71,10 @@ unit! {
     ClosingCmS(i16, i32);
     /// A span of time, 1 ms per bit.
     Millis(u32, i64);
+    /// Element of a rotation matrix, 1/2¹⁴ per bit: ±16 384 is ±1.
+    RotationQ14(i16, i32);
+    /// Distance in an image, 1 pixel per bit.
+    Pixel(u16, i32);
 }
 
 impl Percent {
@@ -92,7 +96,7 @@ macro_rules! unsigned_word {
 }
 unsigned_word!(SpeedKmhQ8(u16), DecelMs2Q11(u16), Percent(u8), Pedal250(u8), RateDeciDegS(u16));
 unsigned_word!(Count(u8), PercentPerS(u16), Mass10Kg(u16), Pressure5KPa(u8));
-unsigned_word!(BarTorque50mNm(u8), DistanceCm(u16), Millis(u32));
+unsigned_word!(BarTorque50mNm(u8), DistanceCm(u16), Millis(u32), Pixel(u16));
 
 macro_rules! signed_word {
     ($($name:ident),*) => {$(
@@ -107,7 +111,7 @@ macro_rules! signed_word {
         }
     )*};
 }
-signed_word!(AngleDeciDeg, TorqueNmQ10, CurrentDeciA, OffsetCm, ClosingCmS);
+signed_word!(AngleDeciDeg, TorqueNmQ10, CurrentDeciA, OffsetCm, ClosingCmS, RotationQ14);
 
 /// A timer that counts from the first sample at which its condition held.
 ///

@@ -1,8 +1,9 @@
-//! Prints frames as `candump -l` does: random inputs, objects, commands and outputs over a second, for `check_dbc.py`
-//! and other tools.
+//! Prints frames as `candump -l` does: random inputs, objects, commands, outputs and status over two seconds, for
+//! `check_dbc.py` and other tools.
 
 use supervisor_core::{
-    AngleDeciDeg, Commands, DecelMs2Q11, Inputs, Millis, Outputs, Pedal250, Percent, Seat, Signal, SpeedKmhQ8,
+    AngleDeciDeg, Commands, DecelMs2Q11, ExitReason, Faults, Inputs, Level, Mass10Kg, Millis, Mode, Occupancy, Outputs,
+    Pedal250, Percent, Pressure5KPa, Record, Seat, Signal, SpeedKmhQ8, Stage, Status,
 };
 use supervisor_perceive::Scene;
 use supervisor_wire::{Frame, Sender};
@@ -19,6 +20,9 @@ fn main() {
             motor_speed: Signal::Known(SpeedKmhQ8::new(raw)),
             brake_pedal: [Signal::Known(Pedal250::new(small)); 2],
             steering_angle: Signal::Known(AngleDeciDeg::new(raw.cast_signed())),
+            electric_actual: Signal::Known(DecelMs2Q11::new(raw)),
+            mass: Signal::Known(Mass10Kg::new(raw)),
+            axle_pressure: [Signal::Known(Pressure5KPa::new(small)); 2],
             ..Inputs::NEVER
         };
         let mut outputs = Outputs::NEUTRAL;
@@ -35,5 +39,18 @@ fn main() {
         sensors.encode_inputs(Millis::new(time), &inputs, &Scene::clear(), &mut print);
         controller.encode_commands(Millis::new(time), &commands, &mut print);
         supervisor.encode_outputs(Millis::new(time), &outputs, &mut print);
+        let status = Status {
+            occupancy: Occupancy::Leave,
+            parked_by_leave: true,
+            parked_for: Millis::new(time),
+            stage: Stage::Down,
+            level: Level::Two,
+            mode: Mode::Manual,
+            exit: ExitReason::Leave,
+            safe_state: false,
+            faults: Faults::EBS_RED,
+            record: Record::HighVoltageDown,
+        };
+        supervisor.encode_status(Millis::new(time), &status, &mut print);
     }
 }

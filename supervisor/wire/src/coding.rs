@@ -4,7 +4,6 @@
 //! the field in our messages, and what J1939-71 says in those of J1939 (E2E-1i).
 
 use supervisor_core::{Cause, DecelMs2Q11, Gear, Millis, Origin, Percent, Signal, Word};
-use supervisor_perceive::Class;
 
 /// A way to write values of type `T` into a field whose greatest raw value is `full`.
 pub(crate) trait Coding<T> {
@@ -113,8 +112,6 @@ coding! {
     /// Age in ms; the greatest raw value is "that old or older", and becomes as old as can be.
     Age(Millis): |value, full| raw(value).min(full),
         |raw, full| if raw == full { Some(Millis::new(u32::MAX)) } else { word(raw) };
-    /// Class of an object.
-    ObjectClass(Class): |value, _| u64::from(value.code()), |raw, _| Class::from_code(u8::try_from(raw).ok()?);
     /// Pixels.
     Pixels(u16): |value, _| u64::from(value), |raw, _| u16::try_from(raw).ok();
 }

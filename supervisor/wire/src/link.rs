@@ -1,10 +1,10 @@
 //! One message at the receiver: is the frame intact, well-formed, in order? (E2E-1c)
 
-use supervisor_core::{Cause, Channel, Command, Millis, Percent, Rejection, RetarderMode};
+use supervisor_core::{Cause, Command, Millis, Percent, Rejection, RetarderMode};
 
 use crate::frame::Frame;
-use crate::message::{Destination, Values};
-use crate::qualifier::{Qualifier, Timing, elapsed};
+use crate::message::Values;
+use crate::qualifier::{FOREVER, Qualifier, Timing, elapsed};
 use crate::refusal::Fault;
 use crate::table::Message;
 
@@ -94,7 +94,7 @@ impl Link {
 
     /// E2E-1h: after a frame that asked for nothing, an on-demand message does not time out.
     fn patience(&self) -> Timing {
-        if self.idle { Timing { timeout: Millis::new(u32::MAX), ..self.timing } } else { self.timing }
+        if self.idle { Timing { timeout: FOREVER, ..self.timing } } else { self.timing }
     }
 
     /// The counter of the last frame, if it was accepted.
@@ -122,9 +122,6 @@ impl Link {
 /// Whether an on-demand message (TSC1: pauses up to 2.98 s on real trucks) asks for nothing.
 fn asks_nothing(message: Message, values: &Values) -> bool {
     let (drive, retarder) = (values.outputs.drive, values.outputs.retarder);
-    match message.destination() {
-        Destination::Command(Channel::DriveTorque) => !drive.active && drive.torque == Percent::ZERO,
-        Destination::Command(Channel::Retarder) => retarder.mode == RetarderMode::Off,
-        Destination::Input | Destination::Radar(_) | Destination::Camera(_) | Destination::Command(_) => false,
-    }
+    message == Message::DriveTorque && !drive.active && drive.torque == Percent::ZERO
+        || message == Message::Retarder && retarder.mode == RetarderMode::Off
 }

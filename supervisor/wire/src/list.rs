@@ -1,7 +1,7 @@
 //! Object lists: complete, or not used.
 
-use supervisor_core::{ClosingCmS, Count, DistanceCm, Millis, OffsetCm, Signal};
-use supervisor_perceive::{CameraObject, Class, PixelBox, RadarObject};
+use supervisor_core::{Count, Millis, Signal};
+use supervisor_perceive::{CameraObject, PixelBox, RadarObject};
 
 use crate::qualifier::elapsed;
 
@@ -16,31 +16,18 @@ pub(crate) trait Object: Copy + PartialEq {
 }
 
 impl Object for RadarObject {
-    const NONE: Self = Self {
-        distance: DistanceCm::ZERO,
-        offset: OffsetCm::ZERO,
-        closing: ClosingCmS::ZERO,
-        age: Millis::ZERO,
-        updates: Count::ZERO,
-        class: Class::Unmatched,
-    };
+    const NONE: Self = Self::NONE;
     const PARTS: u8 = 2;
     fn merge(&mut self, part: u8, from: &Self) {
         *self = match part {
-            0 => Self { distance: from.distance, offset: from.offset, class: from.class, ..*self },
-            _ => Self { closing: from.closing, age: from.age, updates: from.updates, ..*self },
+            0 => Self { distance: from.distance, offset: from.offset, ..*self },
+            _ => Self { distance: self.distance, offset: self.offset, ..*from },
         };
     }
 }
 
 impl Object for CameraObject {
-    const NONE: Self = Self {
-        pixels: PixelBox { left: 0, top: 0, width: 0, height: 0 },
-        class: Class::Unmatched,
-        distance: DistanceCm::ZERO,
-        closing: ClosingCmS::ZERO,
-        age: Millis::ZERO,
-    };
+    const NONE: Self = Self::NONE;
     const PARTS: u8 = 3;
     fn merge(&mut self, part: u8, from: &Self) {
         let (new, old) = (from.pixels, self.pixels);

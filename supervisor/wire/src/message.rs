@@ -1,21 +1,13 @@
 //! What the table of messages is made of.
 
-use supervisor_core::{Channel, Inputs, Outputs};
+use supervisor_core::{
+    Channel, ExitReason, Faults, Inputs, Level, Millis, Mode, Occupancy, Outputs, Record, Stage, Status,
+};
 use supervisor_perceive::{CameraObject, RadarObject};
 
 use crate::coding::Coding;
 use crate::frame::{extract, full, insert};
 use crate::list::Entry;
-
-/// The class of a message (E2E-1a). *Redundant* is a property of signals, not of messages: the core compares the two
-/// sources.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum E2eClass {
-    /// CRC or checksum, counter, age.
-    Protected,
-    /// Range and age only (E2E-1e).
-    Bare,
-}
 
 /// The longest period S4 table 5 allows; the time-out is 2.5 times as long (E2E-1g).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,6 +31,8 @@ pub enum Destination {
     Camera(u8),
     /// A command to this channel; with the supervisor's address, an output.
     Command(Channel),
+    /// From the supervisor to whoever asks how it is (SELF-8a, RPT-1b).
+    Status,
 }
 
 /// Who sends commands.
@@ -79,11 +73,31 @@ pub(crate) struct Values {
     pub outputs: Outputs,
     pub radar: Entry<RadarObject>,
     pub camera: Entry<CameraObject>,
+    pub status: Status,
+    /// When the status was sent, by the clock of the supervisor.
+    pub stamp: Millis,
 }
 
 impl Values {
-    pub(crate) const NONE: Self =
-        Self { inputs: Inputs::NEVER, outputs: Outputs::NEUTRAL, radar: Entry::NONE, camera: Entry::NONE };
+    pub(crate) const NONE: Self = Self {
+        inputs: Inputs::NEVER,
+        outputs: Outputs::NEUTRAL,
+        radar: Entry::NONE,
+        camera: Entry::NONE,
+        status: Status {
+            occupancy: Occupancy::NotConfirmed,
+            parked_by_leave: false,
+            parked_for: Millis::ZERO,
+            stage: Stage::Up,
+            level: Level::None,
+            mode: Mode::Manual,
+            exit: ExitReason::None,
+            safe_state: false,
+            faults: Faults::NONE,
+            record: Record::None,
+        },
+        stamp: Millis::ZERO,
+    };
 }
 
 /// Writes one signal.
@@ -100,41 +114,37 @@ pub(crate) fn get<C: Coding<T>, T: Copy>(payload: u64, start: u32, width: u32, s
 }
 
 macro_rules! messages {
-    (($inputs:ident, $outputs:ident, $radar:ident, $camera:ident) $($(#[$doc:meta])* $number:literal $message:ident(
+    (($($part:ident),*) $($(#[$doc:meta])* $number:literal $message:ident(
         $name:literal, $id:literal, $period:literal, $control_time:ident, $destination:expr, $protection:ident
     ) { $($signal:ident: $coding:ident($start:literal, $width:literal) = $place:expr;)* })*) => {
         /// The messages: a closed table.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         pub enum Message { $($(#[$doc])* $message,)* }
 
-        messages! { @get /** Its place in the table. */
-            number: usize; $($message => $number,)* }
-        messages! { @get /** Its name, as in `ebus.dbc`. */
-            name: &'static str; $($message => $name,)* }
-        messages! { @get /** The identifier, as its sensor or the main controller sends it. */
+        messages! { @get /** Its place in the table. */ number: usize; $($message => $number,)* }
+        messages! { @get /** Its name, as in `ebus.dbc`. */ name: &'static str; $($message => $name,)* }
+        messages! { @get /** The identifier, as its sensor or the main controller has it. */
             id: u32; $($message => $id,)* }
-        messages! { @get /** How often it is sent. */
-            period: Millis; $($message => Millis::new($period),)* }
+        messages! { @get /** How often it is sent. */ period: Millis; $($message => Millis::new($period),)* }
         messages! { @get /** The class of its time-out (E2E-1g). */
             control_time: ControlTime; $($message => ControlTime::$control_time,)* }
-        messages! { @get /** Where it goes. */
-            destination: Destination; $($message => $destination,)* }
-        messages! { @get /** How it is protected. */
-            protection: Protection; $($message => Protection::$protection,)* }
+        messages! { @get /** Where it goes. */ destination: Destination; $($message => $destination,)* }
+        messages! { @get /** How it is protected. */ protection: Protection; $($message => Protection::$protection,)* }
         messages! { @get /** Its signals, without counter and check field. */
-            signals: &'static [SignalLayout]; $($message => &[$(SignalLayout { name: stringify!($signal), start: $start, width: $width },)*],)* }
+            signals: &'static [SignalLayout];
+            $($message => &[$(SignalLayout { name: stringify!($signal), start: $start, width: $width },)*],)* }
 
         impl Message {
             /// Every message, in the order of the table.
             pub const ALL: &'static [Self] = &[$(Self::$message,)*];
 
             fn write_signals(self, payload: &mut u64, values: &Values) {
-                let Values { inputs: $inputs, outputs: $outputs, radar: $radar, camera: $camera } = values;
+                let Values { $($part),* } = values;
                 match self { $(Self::$message => { $(put::<$coding, _>(payload, $start, $width, $place);)* })* }
             }
             /// The name of the first signal that cannot be read.
             fn read_signals(self, payload: u64, strict: bool, values: &mut Values) -> Option<&'static str> {
-                let Values { inputs: $inputs, outputs: $outputs, radar: $radar, camera: $camera } = values;
+                let Values { $($part),* } = values;
                 match self {
                     $(Self::$message => { $(if !get::<$coding, _>(payload, $start, $width, strict, &mut $place) {
                         return Some(stringify!($signal));
@@ -144,7 +154,7 @@ macro_rules! messages {
             }
             /// Makes every signal of it unknown; a command stays as it is.
             pub(crate) fn degrade(self, values: &mut Values, cause: Cause) {
-                let Values { inputs: $inputs, outputs: $outputs, radar: $radar, camera: $camera } = values;
+                let Values { $($part),* } = values;
                 match self { $(Self::$message => { $(<$coding as Coding<_>>::degrade(&mut $place, cause);)* })* }
             }
         }

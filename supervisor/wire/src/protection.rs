@@ -3,7 +3,8 @@
 use crate::frame::{extract, insert};
 use crate::refusal::Fault;
 
-/// How a message is protected.
+/// How a message is protected: its class (E2E-1a), of which every message has exactly one. *Redundant* is a property of
+/// signals, not of messages: the core compares the two sources.
 ///
 /// How much it is worth: Profile 11 finds every 2 flipped bits and every burst of 8 bits behind the CRC, and lets one
 /// random corruption in 256 pass. The nibbles of J1939 let one in 8 (TSC1) or 16 (XBR) pass; that of TSC1 even misses
@@ -19,7 +20,7 @@ pub enum Protection {
     Tsc1,
     /// J1939 XBR: counter 0 to 15 (SPN 3189) and checksum (SPN 3188) in byte 8.
     Xbr,
-    /// None.
+    /// None: range and age only (E2E-1e).
     Bare,
 }
 

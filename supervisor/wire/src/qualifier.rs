@@ -40,6 +40,9 @@ enum Phase {
     FailedUnqualified,
 }
 
+/// Longer than any time-out.
+pub(crate) const FOREVER: Millis = Millis::new(u32::MAX);
+
 /// Time from `then` to `now`, across a wrap of the clock. A clock that steps back makes it very long.
 pub(crate) const fn elapsed(now: Millis, then: Millis) -> Millis {
     Millis::new(now.raw().wrapping_sub(then.raw()))

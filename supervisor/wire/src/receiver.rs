@@ -2,15 +2,19 @@
 
 use core::array;
 
-use supervisor_core::{Channel, Command, Commands, Config, Inputs, Millis, ServiceBrake, Steering};
+use supervisor_core::{
+    BrakeMode, Cause, Channel, Channels, Command, Commands, Config, DecelMs2Q11, Inputs, Millis, ServiceBrake, Status,
+    Steering,
+};
 use supervisor_perceive::{CameraObject, MAX_CAMERA, MAX_RADAR, RadarObject, Scene};
 
 use crate::frame::Frame;
 use crate::link::Link;
 use crate::list::List;
 use crate::message::{ControlTime, Destination, Source, Values};
-use crate::qualifier::{Timing, elapsed};
+use crate::qualifier::{FOREVER, Timing, elapsed};
 use crate::refusal::{Accepted, Fault, Refusal};
+use crate::sender::Sender;
 use crate::table::Message;
 
 /// What one cycle of the supervisor reads.
@@ -36,6 +40,8 @@ pub struct Receiver {
     camera: List<CameraObject, MAX_CAMERA>,
     /// The last steering command of which both frames were there, when, and whether since the last sample.
     steering: Option<(Millis, Steering, bool)>,
+    /// The strongest brake request since the last sample.
+    brake: Option<ServiceBrake>,
     inputs: Inputs,
     scene: Scene,
     commands: Commands,
@@ -71,6 +77,7 @@ impl Receiver {
             radar: List::new(config.timeout_50),
             camera: List::new(config.timeout_50),
             steering: None,
+            brake: None,
             inputs: Inputs::NEVER,
             scene: Scene::default(),
             commands: Commands::ABSENT,
@@ -85,15 +92,57 @@ impl Receiver {
         let unknown = Refusal { message: None, fault: Fault::Identifier };
         let (message, source) = Message::identify(frame.id).ok_or(unknown)?;
         let refusal = |fault| Refusal { message: Some(message), fault };
-        if message.is_command() && source != self.source {
+        let own_status = message.destination() == Destination::Status && self.source == Source::MainController;
+        if own_status || message.is_command() && source != self.source {
             return Err(refusal(Fault::Source));
         }
         let mut values = self.values;
         let link = self.links.get_mut(message.number()).ok_or(unknown)?;
         let lost = link.receive(now, frame, &mut values).map_err(refusal)?;
         self.values = values;
+        if message == Message::ServiceBrake {
+            self.values.outputs.brake = self.strongest(values.outputs.brake);
+        }
         self.complete(now, message.destination());
         Ok(Accepted { message, lost })
+    }
+
+    /// Watches the bus of the actuators: every frame that is read there, of whatever sender, goes in here; feedback
+    /// that comes by this bus goes to [`accept`](Self::accept) too. `sender` is the one of the outputs.
+    ///
+    /// What is found is in the next sample, once. The priority in the identifier does not count, as in J1939.
+    /// - SELF-10a: a command to an actuator from another source address, or to all of them, is foreign on its channel.
+    /// - SELF-10b: a frame of ours that is not an echo has a second sender; a command is foreign too. A controller that
+    ///   receives its own frames hands each back once, to the bit, within two cycles.
+    ///
+    /// # Errors
+    /// The message that somebody else sent.
+    pub fn accept_actuator(&mut self, now: Millis, frame: &Frame, sender: &mut Sender) -> Result<(), Refusal> {
+        let mut result = Ok(());
+        for message in Message::ALL.iter().copied().filter(|message| message.commanded_by(frame.id)) {
+            if sender.takes_back(now, message, frame) {
+                continue;
+            }
+            let inputs = &mut self.values.inputs;
+            inputs.second_sender |= frame.id & 0xFF == u32::from(Source::Supervisor.address());
+            if let Destination::Command(channel) = message.destination() {
+                inputs.foreign = inputs.foreign.with(channel);
+            }
+            result = Err(Refusal { message: Some(message), fault: Fault::Source });
+        }
+        result
+    }
+
+    /// VLC-1e: of several good requests in one cycle, the one for the greatest deceleration; of equal ones the last. It
+    /// is held until the next good request after the cycle. The electric part has its own message.
+    ///
+    /// The link has one main controller: if two send under its address they break each other's counters, and of the
+    /// frames that still pass their check the strongest counts.
+    fn strongest(&mut self, request: ServiceBrake) -> ServiceBrake {
+        let demand = |brake: &ServiceBrake| if brake.mode == BrakeMode::Off { DecelMs2Q11::ZERO } else { brake.total };
+        let before = self.brake.filter(|before| demand(before) > demand(&request)).unwrap_or(request);
+        self.brake = Some(before);
+        ServiceBrake { electric: request.electric, ..before }
     }
 
     /// Completes what consists of several frames.
@@ -119,7 +168,7 @@ impl Receiver {
                     self.steering = Some((now, self.values.outputs.steering, true));
                 }
             }
-            Destination::Input | Destination::Command(_) => {}
+            Destination::Input | Destination::Command(_) | Destination::Status => {}
         }
     }
 
@@ -140,10 +189,23 @@ impl Receiver {
         self.inputs = values.inputs;
         self.commands = self.commands(now);
         self.steering = self.steering.map(|(taken, value, _)| (taken, value, false));
+        (self.values.inputs.foreign, self.values.inputs.second_sender) = (Channels::NONE, false);
+        self.brake = None;
         for link in &mut self.links {
             link.fresh = false;
         }
         Sample { inputs: &self.inputs, scene: &self.scene, commands: &self.commands }
+    }
+
+    /// What the supervisor last said of itself, and its time stamp, for a receiver that listens to the supervisor.
+    ///
+    /// # Errors
+    /// Why it does not count, as for an input.
+    pub fn status(&mut self, now: Millis) -> Result<(Millis, Status), Cause> {
+        for message in [Message::SupervisorStatus, Message::SupervisorFaults] {
+            self.links.get_mut(message.number()).ok_or(Cause::NeverReceived)?.quality(now)?;
+        }
+        Ok((self.values.stamp, self.values.status))
     }
 
     fn commands(&mut self, now: Millis) -> Commands {
@@ -170,10 +232,8 @@ impl Receiver {
 
     /// The electric part needs its own frame; without it the demand of XBR stands, all of it by friction.
     fn brake(&mut self, now: Millis, brake: ServiceBrake) -> Command<ServiceBrake> {
-        let electric = match self.command(now, Message::BrakeSplit, brake.electric) {
-            Command::Fresh(electric) | Command::Held(_, electric) => electric,
-            Command::Absent | Command::Rejected(_) => ServiceBrake::NEUTRAL.electric,
-        };
+        let split = self.command(now, Message::BrakeSplit, brake.electric);
+        let electric = split.usable(FOREVER).unwrap_or(ServiceBrake::NEUTRAL.electric);
         self.command(now, Message::ServiceBrake, ServiceBrake { electric, ..brake })
     }
 

@@ -1,23 +1,36 @@
 //! From inputs, commands and outputs to frames.
 
-use supervisor_core::{Channel, Command, Commands, Count, Inputs, Millis, Outputs};
+use supervisor_core::{Channel, Commands, Count, Inputs, Millis, Outputs, Status};
 use supervisor_perceive::Scene;
 
 use crate::frame::Frame;
 use crate::list::Entry;
 use crate::message::{Destination, Source, Values};
-use crate::qualifier::elapsed;
+use crate::qualifier::{FOREVER, elapsed};
 use crate::table::Message;
+
+/// SELF-10b: how long after it was sent a frame may come back: two cycles. A controller that hands back its own frames
+/// does so when they are on the bus; one that waits longer for the bus is a fault of its own.
+const ECHO: Millis = Millis::new(20);
+
+/// A frame that was sent.
+#[derive(Clone, Copy, Debug)]
+struct Sent {
+    /// Without counter and check field.
+    payload: u64,
+    counter: u8,
+    at: Millis,
+    /// It has come back: what looks the same from now on is of somebody else.
+    echoed: bool,
+}
 
 /// What the sender keeps of one message.
 #[derive(Clone, Copy, Debug)]
 struct Slot {
-    /// Counter of the next frame.
-    counter: u8,
-    /// When it was due last; `None` before the first one.
-    due: Option<Millis>,
-    /// The payload sent last.
-    sent: u64,
+    /// When it was due last.
+    due: Millis,
+    /// The last frame and the one before it.
+    sent: [Option<Sent>; 2],
 }
 
 /// Sends frames: keeps counters and periods.
@@ -34,19 +47,11 @@ impl Default for Sender {
     }
 }
 
-/// The value of a command that is sent: refused and absent ones are not.
-fn sent<T>(command: Command<T>) -> Option<T> {
-    match command {
-        Command::Fresh(value) | Command::Held(_, value) => Some(value),
-        Command::Absent | Command::Rejected(_) => None,
-    }
-}
-
-/// The values of the commands, and which channels have one.
+/// The values of the commands, and which channels have one: refused and absent ones are not sent.
 macro_rules! gather {
     ($commands:ident; $($field:ident: $channel:ident),*) => {(
-        Outputs { $($field: sent($commands.$field).unwrap_or(Outputs::NEUTRAL.$field),)* },
-        |channel: &Channel| match channel { $(Channel::$channel => sent($commands.$field).is_some(),)* },
+        Outputs { $($field: $commands.$field.usable(FOREVER).unwrap_or(Outputs::NEUTRAL.$field),)* },
+        |channel: &Channel| match channel { $(Channel::$channel => $commands.$field.usable(FOREVER).is_ok(),)* },
     )};
 }
 
@@ -59,37 +64,31 @@ impl Sender {
     /// Nothing sent yet.
     #[must_use]
     pub const fn new() -> Self {
-        let slot = Slot { counter: 0, due: None, sent: 0 };
+        let slot = Slot { due: Millis::ZERO, sent: [None; 2] };
         Self { slots: [slot; Message::COUNT], radar_cycle: Count::ZERO, camera_cycle: Count::ZERO }
     }
 
     /// Sends the inputs and object lists that are due, as their sensors. What is unknown is sent as "not available".
     pub fn encode_inputs(&mut self, now: Millis, inputs: &Inputs, scene: &Scene, emit: &mut impl FnMut(Frame)) {
         let mut values = Values { inputs: *inputs, ..Values::NONE };
-        for message in Message::ALL.iter().copied() {
-            let due = self.due(now, message);
-            match message.destination() {
-                Destination::Input if due => self.send(now, message, message.id(), &values, emit),
-                Destination::Radar(0) if due => {
-                    for entry in Entry::list(self.radar_cycle, scene.radar_known, &scene.radar) {
-                        values.radar = entry;
-                        for part in [Message::RadarPosition, Message::RadarMotion] {
-                            self.send(now, part, part.id(), &values, emit);
-                        }
-                    }
-                    self.radar_cycle = next(self.radar_cycle);
+        self.send_due(now, Destination::Input, &values, emit);
+        if self.due(now, Message::RadarPosition) {
+            for entry in Entry::list(self.radar_cycle, scene.radar_known, &scene.radar) {
+                values.radar = entry;
+                for part in [Message::RadarPosition, Message::RadarMotion] {
+                    self.send(now, part, part.id(), &values, emit);
                 }
-                Destination::Camera(0) if due => {
-                    for entry in Entry::list(self.camera_cycle, scene.camera_known, &scene.camera) {
-                        values.camera = entry;
-                        for part in [Message::CameraObject, Message::CameraCorner, Message::CameraSize] {
-                            self.send(now, part, part.id(), &values, emit);
-                        }
-                    }
-                    self.camera_cycle = next(self.camera_cycle);
-                }
-                Destination::Input | Destination::Radar(_) | Destination::Camera(_) | Destination::Command(_) => {}
             }
+            self.radar_cycle = next(self.radar_cycle);
+        }
+        if self.due(now, Message::CameraObject) {
+            for entry in Entry::list(self.camera_cycle, scene.camera_known, &scene.camera) {
+                values.camera = entry;
+                for part in [Message::CameraObject, Message::CameraCorner, Message::CameraSize] {
+                    self.send(now, part, part.id(), &values, emit);
+                }
+            }
+            self.camera_cycle = next(self.camera_cycle);
         }
     }
 
@@ -101,6 +100,37 @@ impl Sender {
     /// Sends the outputs that are due or have changed, as the supervisor (CMD-3d, SELF-8a).
     pub fn encode_outputs(&mut self, now: Millis, outputs: &Outputs, emit: &mut impl FnMut(Frame)) {
         self.encode(now, Source::Supervisor, &outputs.as_commands(), emit);
+    }
+
+    /// Sends what the supervisor says of itself, when it is due (SELF-8a, RPT-1b). `now` goes along as time stamp.
+    pub fn encode_status(&mut self, now: Millis, status: &Status, emit: &mut impl FnMut(Frame)) {
+        let values = Values { status: *status, stamp: now, ..Values::NONE };
+        self.send_due(now, Destination::Status, &values, emit);
+    }
+
+    /// Messages of one sender that are due.
+    fn send_due(&mut self, now: Millis, to: Destination, values: &Values, emit: &mut impl FnMut(Frame)) {
+        for message in Message::ALL.iter().copied().filter(|message| message.destination() == to) {
+            if self.due(now, message) {
+                self.send(now, message, message.id(), values, emit);
+            }
+        }
+    }
+
+    /// SELF-10b: whether this frame from the bus is ours, handed back: to the bit one of the last two that were sent of
+    /// this message, within [`ECHO`]. Each comes back once.
+    ///
+    /// Two, because one may still wait for the bus when the next is sent; once, because a frame that is repeated makes
+    /// the actuator refuse the counter.
+    pub(crate) fn takes_back(&mut self, now: Millis, message: Message, frame: &Frame) -> bool {
+        let (id, protection) = (message.id_from(Source::Supervisor), message.protection());
+        let is_it = |sent: &&mut Sent| {
+            let same = *frame == Frame::new(id, protection.seal(id, sent.payload, sent.counter));
+            same && !sent.echoed && elapsed(now, sent.at) <= ECHO
+        };
+        let slot = self.slots.get_mut(message.number());
+        let sent = slot.and_then(|slot| slot.sent.iter_mut().flatten().find(is_it));
+        sent.map(|sent| sent.echoed = true).is_some()
     }
 
     /// All frames of a channel go together.
@@ -118,12 +148,13 @@ impl Sender {
     }
 
     fn due(&self, now: Millis, message: Message) -> bool {
-        let due = self.slots.get(message.number()).and_then(|slot| slot.due);
-        due.is_none_or(|due| elapsed(now, due) >= message.period())
+        let slot = self.slots.get(message.number());
+        slot.is_some_and(|slot| slot.sent[0].is_none() || elapsed(now, slot.due) >= message.period())
     }
 
     fn changed(&self, message: Message, values: &Values) -> bool {
-        self.slots.get(message.number()).is_some_and(|slot| slot.sent != message.write(values))
+        let sent = self.slots.get(message.number()).and_then(|slot| slot.sent[0]);
+        sent.is_none_or(|sent| sent.payload != message.write(values))
     }
 
     /// CMD-3d, e: under our counter and check field.
@@ -133,15 +164,17 @@ impl Sender {
         // The period runs on from when the frame was due, not from when it was sent: no drift. It begins anew after
         // a pause or a change; the very first one is shortened, so that not all messages are due together for ever.
         let first = u32::try_from(message.number()).unwrap_or(0).saturating_mul(10).checked_rem(period.raw());
-        let due = slot.due.map(|due| Millis::new(due.raw().wrapping_add(period.raw())));
-        slot.due = Some(match due {
+        let due = Millis::new(slot.due.raw().wrapping_add(period.raw()));
+        let [last, _] = slot.sent;
+        slot.due = match last {
             None => Millis::new(now.raw().wrapping_sub(first.unwrap_or(0))),
-            Some(due) if elapsed(now, due) < period => due,
+            Some(_) if elapsed(now, due) < period => due,
             Some(_) => now,
-        });
-        slot.sent = message.write(values);
-        emit(Frame::new(id, message.protection().seal(id, slot.sent, slot.counter)));
-        let next = slot.counter.saturating_add(1);
-        slot.counter = if next < message.protection().counts() { next } else { 0 };
+        };
+        let next = last.map_or(0, |last| last.counter.saturating_add(1));
+        let counter = if next < message.protection().counts() { next } else { 0 };
+        let payload = message.write(values);
+        slot.sent = [Some(Sent { payload, counter, at: now, echoed: false }), last];
+        emit(Frame::new(id, message.protection().seal(id, payload, counter)));
     }
 }

@@ -7,18 +7,18 @@ use supervisor_core::{Cause, Channel, Millis};
 use supervisor_perceive::{MAX_CAMERA, MAX_RADAR};
 
 use crate::coding::{
-    Age, BrakingTorque, Coding, Deceleration, Measured, MeasuredSigned, ObjectClass, Pixels, Plain, Purpose, Spn,
-    SpnGear, SpnSwitch, Torque, TorqueControl,
+    Age, BrakingTorque, Coding, Deceleration, Measured, MeasuredSigned, Pixels, Plain, Purpose, Spn, SpnGear,
+    SpnSwitch, Torque, TorqueControl,
 };
 use crate::frame::{full, insert};
 use crate::list::Entry;
-use crate::message::Destination::{Camera, Command, Input, Radar};
-use crate::message::{ControlTime, Destination, E2eClass, SignalLayout, Source, Values, get, messages, put};
+use crate::message::Destination::{Camera, Command, Input, Radar, Status};
+use crate::message::{ControlTime, Destination, SignalLayout, Source, Values, get, messages, put};
 use crate::protection::Protection;
 use crate::refusal::Fault;
 
 messages! {
-    (inputs, outputs, radar, camera)
+    (inputs, outputs, radar, camera, status, stamp)
 
     // Bare J1939 inputs, source addresses as on the recorded bus.
     /// Cruise control / vehicle speed.
@@ -53,7 +53,9 @@ messages! {
     8 BrakeStatus("BrakeStatus", 0x0CFF_140B, 50, Ms50, Input, Profile11) {
         XBRStatus: Measured(12, 2) = inputs.xbr_status; StabilityActive: Measured(14, 2) = inputs.stability;
         FrictionLimit: Measured(16, 16) = inputs.friction_limit;
-        MeasuredDeceleration: Measured(32, 16) = inputs.deceleration; }
+        MeasuredDeceleration: Measured(32, 16) = inputs.deceleration;
+        PressureFront: Measured(48, 8) = inputs.axle_pressure[0];
+        PressureRear: Measured(56, 8) = inputs.axle_pressure[1]; }
     /// Power steering.
     9 SteeringStatus("SteeringStatus", 0x0CFF_1513, 50, Ms50, Input, Profile11) {
         HandsOff: Measured(12, 2) = inputs.hands_off;
@@ -78,8 +80,7 @@ messages! {
     // Object lists: a list without objects is sent as index 0 of length 0.
     /// Radar object: where it is.
     14 RadarPosition("RadarPosition", 0x0CFF_1AA1, 50, Ms50, Radar(0), Profile11) {
-        Cycle: Plain(12, 2) = radar.cycle; RadarClass: ObjectClass(14, 2) = radar.object.class;
-        Index: Plain(16, 5) = radar.index; Length: Measured(21, 6) = radar.length;
+        Cycle: Plain(12, 2) = radar.cycle; Index: Plain(16, 5) = radar.index; Length: Measured(21, 6) = radar.length;
         RadarDistance: Plain(32, 16) = radar.object.distance; RadarOffset: Plain(48, 16) = radar.object.offset; }
     /// Radar object: how it moves.
     15 RadarMotion("RadarMotion", 0x0CFF_1BA1, 50, Ms50, Radar(1), Profile11) {
@@ -88,7 +89,7 @@ messages! {
         RadarClosing: Plain(48, 16) = radar.object.closing; }
     /// Camera object: what it is and how far.
     16 CameraObject("CameraObject", 0x0CFF_30E8, 50, Ms50, Camera(0), Profile11) {
-        Cycle: Plain(12, 2) = camera.cycle; CameraClass: ObjectClass(14, 2) = camera.object.class;
+        Cycle: Plain(12, 2) = camera.cycle; CameraClass: Plain(14, 2) = camera.object.class;
         Index: Plain(16, 4) = camera.index; Length: Measured(20, 5) = camera.length;
         CameraDistance: Plain(32, 16) = camera.object.distance; CameraClosing: Plain(48, 16) = camera.object.closing; }
     /// Camera object: corner of its box.
@@ -163,17 +164,31 @@ messages! {
     /// Driving mode.
     32 Mode("Mode", 0x18FF_2A2A, 200, Ms200, Command(Channel::Mode), Profile11) {
         DrivingMode: Plain(16, 1) = outputs.mode; }
+
+    // What else the brake system splits by (VLC-3).
+    /// Electric brake: what it gives now. The drive's status has no room for it.
+    33 ElectricBrake("ElectricBrake", 0x0CFF_1F00, 50, Ms50, Input, Profile11) {
+        ElectricActual: Measured(16, 16) = inputs.electric_actual; }
+    /// Mass of the vehicle.
+    34 VehicleMass("VehicleMass", 0x18FF_310B, 100, Ms100, Input, Profile11) { Mass: Measured(16, 16) = inputs.mass; }
+
+    // What the supervisor says of itself (SELF-8a, RPT-1b), in every period, whether anything has changed or not.
+    /// Where the supervisor stands: driving mode and exit reason (S4 ACR 1, ACR 8), and its clock.
+    35 SupervisorStatus("SupervisorStatus", 0x18FF_2C80, 50, Ms50, Status, Profile11) {
+        SafeState: Plain(12, 1) = status.safe_state; ParkedByLeave: Plain(13, 1) = status.parked_by_leave;
+        SeatOccupancy: Plain(14, 2) = status.occupancy; ModeGranted: Plain(16, 2) = status.mode;
+        MitigationLevel: Plain(18, 2) = status.level; ShutdownStage: Plain(20, 2) = status.stage;
+        PersistentRecord: Plain(22, 2) = status.record; ExitReason: Plain(24, 8) = status.exit;
+        TimeStamp: Plain(32, 32) = *stamp; }
+    /// Faults and hints, one bit each; and how long it has been parked by leave.
+    36 SupervisorFaults("SupervisorFaults", 0x18FF_2D80, 100, Ms100, Status, Profile11) {
+        Faults: Plain(12, 32) = status.faults; ParkedFor: Age(44, 20) = status.parked_for; }
 }
 
 impl Message {
     /// How many there are.
     pub const COUNT: usize = Self::ALL.len();
 
-    /// E2E-1a: its class; every message has exactly one.
-    #[must_use]
-    pub fn class(self) -> E2eClass {
-        if self.protection() == Protection::Bare { E2eClass::Bare } else { E2eClass::Protected }
-    }
     /// Whether it is a command.
     #[must_use]
     pub const fn is_command(self) -> bool {
@@ -183,6 +198,20 @@ impl Message {
     #[must_use]
     pub fn id_from(self, source: Source) -> u32 {
         if self.is_command() { self.id() & !0xFF | u32::from(source.address()) } else { self.id() }
+    }
+    /// SELF-10: whether an actuator may take a frame with this identifier for this command, whoever sends it; or it is
+    /// the supervisor's status in its own name.
+    ///
+    /// J1939: parameter group and destination say what it is, not the priority; destination 0xFF is everybody.
+    pub(crate) const fn commanded_by(self, id: u32) -> bool {
+        let to_all = id & 0x00FF_0000 < 0x00F0_0000 && id & 0xFF00 == 0xFF00;
+        let counts = match self.destination() {
+            Command(_) if to_all => 0x03FF_0000,
+            Command(_) => 0x03FF_FF00,
+            Status => 0x03FF_FFFF,
+            Input | Radar(_) | Camera(_) => return false,
+        };
+        (self.id() ^ id) & counts == 0
     }
     /// CMD-1a: the message with this identifier, and from whom a command comes.
     pub(crate) fn identify(id: u32) -> Option<(Self, Source)> {
@@ -218,11 +247,11 @@ impl Message {
             }
         }
         (values.radar, values.camera) = (Entry::NONE, Entry::NONE);
-        let unread = self.read_signals(payload, self.class() == E2eClass::Protected, values);
+        let unread = self.read_signals(payload, self.protection() != Protection::Bare, values);
         let misfit = match self.destination() {
             Radar(_) => !values.radar.fits(MAX_RADAR),
             Camera(_) => !values.camera.fits(MAX_CAMERA),
-            Input | Command(_) => false,
+            Input | Command(_) | Status => false,
         };
         unread.or(misfit.then_some("Index")).map_or(Ok(()), |signal| Err(Fault::Signal(signal)))
     }

@@ -288,3 +288,97 @@ fn each_channel_its_own() {
         assert!(matches!(again.steering, Command::Held(..) | Command::Absent));
     }
 }
+
+/// VLC-1e: of several good brake requests in one cycle the greatest deceleration wins, wherever it stands among them,
+/// as one: with its mode and priority. A request that is off is none. The next cycle starts afresh.
+#[test]
+fn strongest_brake() {
+    let request = |total, mode, priority| ServiceBrake {
+        total: DecelMs2Q11::new(total),
+        electric: DecelMs2Q11::ZERO,
+        mode,
+        priority,
+    };
+    let weak = request(2048, BrakeMode::Addition, Priority::Low);
+    let strong = request(8192, BrakeMode::Maximum, Priority::High);
+    let last = request(4096, BrakeMode::Maximum, Priority::Medium);
+    let off = request(16_384, BrakeMode::Off, Priority::Highest);
+    let equal = request(8192, BrakeMode::Addition, Priority::Highest);
+    for (requests, expected) in [
+        (&[strong, weak][..], strong),
+        (&[weak, strong], strong),
+        (&[weak, strong, last], strong),
+        (&[strong, off], strong),
+        (&[off, weak], weak),
+        (&[off], off),
+        (&[strong, equal], equal),
+        (&[weak], weak),
+    ] {
+        let mut receiver = Receiver::new(&Config::DEFAULT);
+        let mut counter = 0;
+        let mut ask = |receiver: &mut Receiver, now, brake| {
+            let outputs = Outputs { brake, ..Outputs::NEUTRAL };
+            let message = Message::ServiceBrake;
+            let sent = resealed(message, &frame(message, &Inputs::NEVER, &outputs, 0), counter);
+            counter += 1;
+            receiver.accept(ms(now), &sent)
+        };
+        // A strong one in the cycle before: gone with it.
+        let _ = ask(&mut receiver, 0, equal);
+        assert!(ask(&mut receiver, 0, request(10_240, BrakeMode::Maximum, Priority::Highest)).is_ok());
+        let _ = receiver.sample(ms(0));
+        for brake in requests {
+            assert!(ask(&mut receiver, 5, *brake).is_ok());
+        }
+        assert_eq!(receiver.sample(ms(10)).commands.brake, Command::Fresh(expected));
+        assert_eq!(receiver.sample(ms(20)).commands.brake, Command::Held(ms(15), expected));
+        assert!(ask(&mut receiver, 25, weak).is_ok());
+        assert_eq!(receiver.sample(ms(30)).commands.brake, Command::Fresh(weak));
+    }
+}
+
+/// VLC-1e, RULE-5a: a refused frame among them counts as before: it is disobeyed at once, and a stronger demand in it
+/// is none. A good one after it is enough, and what was asked for before the refused one stands.
+#[test]
+fn strongest_brake_keeps_the_checks() {
+    let message = Message::ServiceBrake;
+    let sent = |total, counter| {
+        let brake = ServiceBrake { total: DecelMs2Q11::new(total), mode: BrakeMode::Maximum, ..ServiceBrake::NEUTRAL };
+        let outputs = Outputs { brake, ..Outputs::NEUTRAL };
+        (brake, resealed(message, &frame(message, &Inputs::NEVER, &outputs, 0), counter))
+    };
+    let mut receiver = Receiver::new(&Config::DEFAULT);
+    let _ = receiver.accept(ms(0), &sent(0, 0).1);
+    let (first, frame) = sent(6000, 1);
+    assert!(receiver.accept(ms(0), &frame).is_ok());
+    // Stronger, but repeated.
+    assert!(receiver.accept(ms(0), &sent(9000, 1).1).is_err());
+    assert_eq!(receiver.clone().sample(ms(0)).commands.brake, Command::Rejected(Rejection::Counter));
+    assert!(receiver.accept(ms(1), &sent(1000, 2).1).is_ok());
+    assert_eq!(receiver.sample(ms(10)).commands.brake, Command::Fresh(first));
+}
+
+/// VLC-1e: the electric part comes by its own message, and is the last one whichever request wins.
+#[test]
+fn strongest_brake_and_split() {
+    let brake = |total, electric| ServiceBrake {
+        total: DecelMs2Q11::new(total),
+        electric: DecelMs2Q11::new(electric),
+        mode: BrakeMode::Maximum,
+        priority: Priority::Low,
+    };
+    let mut receiver = Receiver::new(&Config::DEFAULT);
+    for (counter, value) in [(0, brake(0, 0)), (1, brake(8000, 500)), (2, brake(4000, 700))] {
+        let outputs = Outputs { brake: value, ..Outputs::NEUTRAL };
+        for message in [Message::BrakeSplit, Message::ServiceBrake] {
+            let _ = receiver.accept(ms(0), &resealed(message, &frame(message, &Inputs::NEVER, &outputs, 0), counter));
+        }
+    }
+    assert_eq!(receiver.sample(ms(0)).commands.brake, Command::Fresh(brake(8000, 700)));
+    // The next cycle: a split before its request does not make the old request count.
+    for (message, value) in [(Message::BrakeSplit, brake(1000, 300)), (Message::ServiceBrake, brake(1000, 300))] {
+        let outputs = Outputs { brake: value, ..Outputs::NEUTRAL };
+        let _ = receiver.accept(ms(10), &resealed(message, &frame(message, &Inputs::NEVER, &outputs, 0), 3));
+    }
+    assert_eq!(receiver.sample(ms(10)).commands.brake, Command::Fresh(brake(1000, 300)));
+}

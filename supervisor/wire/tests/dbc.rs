@@ -11,7 +11,7 @@ use std::fmt::Debug;
 use can_dbc::{AttributeValue, ByteOrder, Dbc, MessageId, ValueType};
 use common::*;
 use proptest::prelude::*;
-use supervisor_core::{Inputs, Outputs, Signal};
+use supervisor_core::{Inputs, Millis, Outputs, Signal, Status, Word};
 use supervisor_perceive::{CameraObject, RadarObject, Scene};
 use supervisor_wire::{Frame, Message, Protection, Sender, Source};
 
@@ -36,11 +36,12 @@ fn read(dbc: &Dbc, frame: &Frame, name: &str) -> Read {
     let width = u32::try_from(signal.size).unwrap();
     let raw = bits(frame.payload(), u32::try_from(signal.start_bit).unwrap(), width);
     let signed = signal.value_type == ValueType::Signed;
-    let number = i32::try_from(raw).unwrap() - if signed && raw >> (width - 1) == 1 { 1 << width } else { 0 };
+    let number = i64::try_from(raw).unwrap() - if signed && raw >> (width - 1) == 1 { 1 << width } else { 0 };
     let labels = dbc.value_descriptions_for_signal(id, name).unwrap_or_default();
-    let label = labels.iter().find(|label| label.id == i64::from(number)).map(|label| label.description.clone());
+    let label = labels.iter().find(|label| label.id == number).map(|label| label.description.clone());
     let greatest = if signed { (1 << (width - 1)) - 1 } else { (1 << width) - 1 };
-    Read { physical: f64::from(number) * signal.factor + signal.offset, label, raw, greatest }
+    let value = if signed { f64::from(i32::try_from(number).unwrap()) } else { f64::from(u32::try_from(raw).unwrap()) };
+    Read { physical: value * signal.factor + signal.offset, label, raw, greatest }
 }
 
 /// What went in.
@@ -74,6 +75,7 @@ fn expected(
     outputs: &Outputs,
     radar: &RadarObject,
     camera: &CameraObject,
+    (stamp, status): (Millis, &Status),
 ) -> Vec<(&'static str, Value)> {
     const Q8: f64 = 1.0 / 256.0;
     const Q10: f64 = 1.0 / 1024.0;
@@ -113,6 +115,8 @@ fn expected(
             ("StabilityActive", yes(i.stability)),
             ("FrictionLimit", signal(i.friction_limit, |v| number(v.raw(), Q11))),
             ("MeasuredDeceleration", signal(i.deceleration, |v| number(v.raw(), Q11))),
+            ("PressureFront", signal(i.axle_pressure[0], |v| number(v.raw(), 5.0))),
+            ("PressureRear", signal(i.axle_pressure[1], |v| number(v.raw(), 5.0))),
         ],
         Message::SteeringStatus => vec![
             ("HandsOff", yes(i.hands_off)),
@@ -140,7 +144,6 @@ fn expected(
         Message::RadarPosition => list(1)
             .into_iter()
             .chain([
-                ("RadarClass", label(radar.class)),
                 ("RadarDistance", number(radar.distance.raw(), 0.01)),
                 ("RadarOffset", number(radar.offset.raw(), 0.01)),
             ])
@@ -232,6 +235,25 @@ fn expected(
             ("Horn", onoff(o.body.horn)),
         ],
         Message::Mode => vec![("DrivingMode", label(o.mode))],
+        Message::ElectricBrake => {
+            vec![("ElectricActual", signal(i.electric_actual, |v| number(v.raw(), Q11)))]
+        }
+        Message::VehicleMass => vec![("Mass", signal(i.mass, |v| number(v.raw(), 10.0)))],
+        Message::SupervisorStatus => vec![
+            ("SafeState", truth(status.safe_state, "Yes", "No")),
+            ("ParkedByLeave", truth(status.parked_by_leave, "Yes", "No")),
+            ("SeatOccupancy", label(status.occupancy)),
+            ("ModeGranted", label(status.mode)),
+            ("MitigationLevel", label(status.level)),
+            ("ShutdownStage", label(status.stage)),
+            ("PersistentRecord", label(status.record)),
+            ("ExitReason", label(status.exit)),
+            ("TimeStamp", number(stamp.raw(), 0.001)),
+        ],
+        Message::SupervisorFaults => vec![
+            ("Faults", number(status.faults.to_word(), 1.0)),
+            ("ParkedFor", number(status.parked_for.raw(), 0.001)),
+        ],
     }
 }
 
@@ -250,6 +272,8 @@ fn values() {
         sender.encode_inputs(ms(0), &inputs, &scene, &mut |frame| frames.push(frame));
         sender.encode_commands(ms(0), &fresh(&outputs), &mut |frame| frames.push(frame));
         Sender::new().encode_outputs(ms(0), &outputs, &mut |frame| frames.push(frame));
+        let (stamp, status) = (ms(u32::try_from(seed * 20_000_000).unwrap()), random.status());
+        sender.encode_status(stamp, &status, &mut |frame| frames.push(frame));
         assert_eq!(frames.len(), dbc.messages.len());
         for frame in frames {
             let message = Message::ALL
@@ -257,7 +281,7 @@ fn values() {
                 .copied()
                 .find(|message| [message.id(), message.id_from(Source::Supervisor)].contains(&frame.id))
                 .unwrap();
-            let expected = expected(message, &inputs, &outputs, &radar, &camera);
+            let expected = expected(message, &inputs, &outputs, &radar, &camera, (stamp, &status));
             let names = |names: &mut dyn Iterator<Item = &str>| names.map(str::to_owned).collect::<BTreeSet<_>>();
             assert_eq!(
                 names(&mut expected.iter().map(|(name, _)| *name)),

@@ -19,7 +19,7 @@ fn receiver() -> Receiver {
 /// Takes `frame` after a predecessor of the same message, so that only its own faults count.
 fn take(message: Message, frame: &Frame) -> Result<Accepted, Refusal> {
     let neutral = common::frame(message, &Inputs::NEVER, &Outputs::NEUTRAL, 0);
-    take_after(&mut receiver(), message, &neutral, frame)
+    take_after(&mut receiver_of(message, &at_once()), message, &neutral, frame)
 }
 
 /// The same, with a good frame that is there already.
@@ -43,7 +43,6 @@ fn table() {
     let mut ids = BTreeSet::new();
     for (number, message) in Message::ALL.iter().enumerate() {
         assert_eq!(message.number(), number);
-        assert_eq!(message.class() == E2eClass::Bare, message.protection() == Protection::Bare);
         assert!(ids.insert(message.id()), "{message:?}");
         let output = message.id_from(Source::Supervisor);
         assert_eq!(output != message.id(), message.is_command());
@@ -58,7 +57,7 @@ fn table() {
         assert!(message.period().raw() <= longest, "{message:?}");
     }
     assert_eq!(Message::COUNT, Message::ALL.len());
-    let bare: Vec<_> = Message::ALL.iter().filter(|message| message.class() == E2eClass::Bare).collect();
+    let bare: Vec<_> = Message::ALL.iter().filter(|message| message.protection() == Protection::Bare).collect();
     assert_eq!(bare, [&Message::Ccvs1, &Message::Eec2, &Message::Ebc1, &Message::Etc2]);
 }
 
@@ -146,8 +145,8 @@ fn counters_out_of_range() {
     }
 }
 
-fn take_raw(_: Message, frame: &Frame) -> Result<Accepted, Refusal> {
-    receiver().accept(ms(0), frame)
+fn take_raw(message: Message, frame: &Frame) -> Result<Accepted, Refusal> {
+    receiver_of(message, &at_once()).accept(ms(0), frame)
 }
 
 /// CMD-1a: an identifier that is not in the table is refused; also one bit beside those that are.
@@ -200,6 +199,15 @@ fn sources() {
     }
 }
 
+/// SELF-10b: the supervisor takes no status from the bus: it is its own.
+#[test]
+fn no_status_of_another() {
+    for message in [Message::SupervisorStatus, Message::SupervisorFaults] {
+        let frame = common::frame(message, &Inputs::NEVER, &Outputs::NEUTRAL, 0);
+        assert_eq!(receiver().accept(ms(0), &frame), refused(message, Fault::Source));
+    }
+}
+
 /// CMD-1b: only frames of 8 bytes are taken.
 #[test]
 fn lengths() {
@@ -244,13 +252,15 @@ fn meaningful(signal: &SignalLayout, raw: u64) -> bool {
         "SeatSensor1" | "SeatSensor2" | "DriveStopped" | "StabilityActive" | "HandsOff" | "EPBState" | "EPBMode"
         | "CruiseSwitch" | "DriverSet" | "K1" | "K4" | "AuxiliariesStopped" => raw != 2,
         "EPSState" | "ADSState" => raw <= 3 || raw == 7,
-        "RadarClass" | "CameraClass" | "EPBRequest" | "K4Request" | "K1Request" | "XBRControlMode" => raw <= 2,
+        "CameraClass" | "EPBRequest" | "K4Request" | "K1Request" | "XBRControlMode" => raw <= 2,
         "OverrideControlMode" | "RetarderControlMode" => raw == 0 || raw == 2,
         "ControlPurpose" => raw <= 1 || raw == 31,
         "RequestedTorque" => (125..=250).contains(&raw),
         "RetarderTorque" => raw <= 125,
         "ExternalAccelerationDemand" => raw <= 32_127,
         "GearRequest" => raw <= 4,
+        "ExitReason" => raw <= 11,
+        "SeatOccupancy" | "ModeGranted" | "PersistentRecord" => raw < 3,
         // In a list of one object.
         "Index" => raw == 0,
         "Length" => (1..=if signal.width == 6 { 32 } else { 16 }).contains(&raw),
@@ -272,9 +282,13 @@ fn every_raw_value() {
             }
         });
         let neutral = frame;
-        let mut receiver = receiver();
+        let mut receiver = receiver_of(message, &at_once());
+        let mut random = Random::new(5);
         for signal in message.signals() {
-            for raw in 0..1_u64 << signal.width {
+            // All of them; of the widest, both ends and some between.
+            let count = 1_u64 << signal.width;
+            let some = (0..1000).map(|_| random.below(count)).chain([count - 2, count - 1]);
+            for raw in (0..count.min(1 << 16)).chain(some) {
                 let payload = with_bits(frame.payload(), signal.start, signal.width, raw);
                 let sent = resealed(message, &Frame::new(frame.id, payload), 1);
                 let result = take_after(&mut receiver, message, &neutral, &sent);
@@ -291,7 +305,7 @@ fn every_raw_value() {
 
 /// What the receiver knows after this frame and its predecessor, encoded again.
 fn encoded_again(message: Message, frame: &Frame) -> Option<Frame> {
-    let mut receiver = receiver();
+    let mut receiver = receiver_of(message, &at_once());
     let (start, width, count) = counter_place(message);
     let counter = u8::try_from(bits(frame.payload(), start, width)).unwrap();
     let _ = receiver.accept(ms(0), &resealed(message, frame, (counter + count - 1) % count));
@@ -315,6 +329,14 @@ fn encoded_again(message: Message, frame: &Frame) -> Option<Frame> {
     let mut sender = Sender::new();
     sender.encode_inputs(ms(0), sample.inputs, sample.scene, &mut emit);
     sender.encode_commands(ms(0), sample.commands, &mut emit);
+    // One frame of the two is enough here: the other says what it says at the start.
+    if message.destination() == Destination::Status {
+        let half =
+            if message == Message::SupervisorStatus { Message::SupervisorFaults } else { Message::SupervisorStatus };
+        let _ = receiver.accept(ms(0), &common::frame(half, &Inputs::NEVER, &Outputs::NEUTRAL, 0));
+        let (stamp, status) = receiver.status(ms(0)).ok()?;
+        sender.encode_status(stamp, &status, &mut emit);
+    }
     again
 }
 
@@ -322,7 +344,7 @@ proptest! {
     /// SELF-1a: any frames at any times: no panic, whatever is asked for in between.
     #[test]
     fn any_frames(frames in prop::collection::vec((0..80_usize, any::<u8>(), any::<[u8; 8]>(), any::<u16>()), 1..200)) {
-        let mut receiver = Receiver::new(&Config::DEFAULT);
+        let (mut receiver, mut sender) = (Receiver::new(&Config::DEFAULT), Sender::new());
         let mut now = 0_u32;
         for (which, length, data, step) in frames {
             now = now.wrapping_add(u32::from(step) * u32::from(step));
@@ -330,11 +352,14 @@ proptest! {
             let length = if length < 250 { 8 } else { length };
             let frame = Frame { id, length, data };
             let _ = receiver.accept(ms(now), &frame);
+            let _ = receiver.accept_actuator(ms(now), &frame, &mut sender);
+            sender.encode_outputs(ms(now), &Outputs::NEUTRAL, &mut |_| ());
             if let Some(message) = Message::ALL.get(which) {
                 let sealed = if message.protection() == Protection::Bare { frame } else { resealed(*message, &frame, length & 15) };
                 let _ = receiver.accept(ms(now), &sealed);
             }
             let _ = receiver.sample(ms(now));
+            let _ = receiver.status(ms(now));
         }
     }
 

@@ -15,7 +15,7 @@ fn counted(message: Message, counter: u8) -> Frame {
 }
 
 fn step(message: Message, last: u8, next: u8) -> Result<u8, Fault> {
-    let mut receiver = Receiver::new(&Config::DEFAULT);
+    let mut receiver = receiver_of(message, &Config::DEFAULT);
     let _ = receiver.accept(ms(0), &counted(message, last));
     match receiver.accept(ms(10), &counted(message, next)) {
         Ok(accepted) => {
@@ -53,7 +53,7 @@ fn every_step() {
 fn wrap() {
     for message in protected() {
         let (.., count) = counter_place(message);
-        let mut receiver = Receiver::new(&Config::DEFAULT);
+        let mut receiver = receiver_of(message, &Config::DEFAULT);
         let _ = receiver.accept(ms(0), &counted(message, 0));
         for number in 1..100_u32 {
             let counter = u8::try_from(number % u32::from(count)).unwrap();
@@ -70,7 +70,7 @@ fn replay() {
     for message in protected() {
         let (.., count) = counter_place(message);
         for back in 0..=count - 4 {
-            let mut receiver = Receiver::new(&Config::DEFAULT);
+            let mut receiver = receiver_of(message, &Config::DEFAULT);
             for number in 0..count {
                 let _ = receiver.accept(ms(u32::from(number)), &counted(message, number));
             }
@@ -87,7 +87,7 @@ fn replay() {
 #[test]
 fn frozen() {
     for message in protected() {
-        let mut receiver = Receiver::new(&at_once());
+        let mut receiver = receiver_of(message, &at_once());
         let _ = receiver.accept(ms(0), &counted(message, 0));
         for number in 1..500 {
             let refusal = receiver.accept(ms(number * 10), &counted(message, 0)).unwrap_err();
@@ -102,7 +102,7 @@ fn frozen() {
 fn first_frames() {
     for message in protected() {
         for (gap, first) in [(0, true), (1, false), (timeout(message), false), (timeout(message) + 1, true)] {
-            let mut receiver = Receiver::new(&at_once());
+            let mut receiver = receiver_of(message, &at_once());
             if gap > 0 {
                 let _ = receiver.accept(ms(0), &counted(message, 0));
                 let _ = receiver.sample(ms(0));

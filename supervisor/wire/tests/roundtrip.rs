@@ -52,6 +52,85 @@ proptest! {
     }
 }
 
+proptest! {
+    /// SELF-8a, RPT-1b: what the supervisor says of itself comes out as it went in, with the time at which it was sent.
+    #[test]
+    fn status(seed in any::<u64>(), start in any::<u32>()) {
+        let mut random = Random::new(seed);
+        let mut supervisor = Sender::new();
+        let mut ads = Receiver::listening_to(Source::Supervisor, &at_once());
+        prop_assert_eq!(ads.status(ms(start)), Err(Cause::NeverReceived));
+        let before = random.status();
+        supervisor.encode_status(ms(start), &before, &mut |frame| { ads.accept(ms(7), &frame).unwrap(); });
+        prop_assert_eq!(ads.status(ms(7)), Ok((ms(start), before)));
+        // The next is due after its period, not before; a change waits for it.
+        let after = random.status();
+        let mut stamps = Vec::new();
+        for since in (10..=200).step_by(10) {
+            let now = ms(start.wrapping_add(since));
+            supervisor.encode_status(now, &after, &mut |frame| { ads.accept(ms(7 + since), &frame).unwrap(); });
+            let (stamp, told) = ads.status(ms(7 + since)).unwrap();
+            stamps.push(stamp);
+            prop_assert!(now.raw().wrapping_sub(stamp.raw()) < 50);
+            if since >= 100 {
+                prop_assert_eq!(told, after);
+            }
+        }
+        stamps.dedup();
+        prop_assert!((4..=5).contains(&stamps.len()), "{stamps:?}");
+        // SELF-8a: dead. The receiver sees it by its own time-out.
+        prop_assert!(ads.status(ms(200 + 7 + 100)).is_ok());
+        prop_assert_eq!(ads.status(ms(200 + 7 + 126)), Err(Cause::Stale));
+    }
+}
+
+/// RPT-1b: a time parked that has no room is told as the longest, and read as longer than any.
+#[test]
+fn parked_for_long() {
+    for (parked, expected) in
+        [(0, 0), (600_000, 600_000), (1_048_574, 1_048_574), (1_048_575, u32::MAX), (u32::MAX, u32::MAX)]
+    {
+        let status = Status { parked_for: ms(parked), ..Random::new(1).status() };
+        let mut receiver = Receiver::listening_to(Source::Supervisor, &at_once());
+        Sender::new().encode_status(ms(0), &status, &mut |frame| {
+            receiver.accept(ms(0), &frame).unwrap();
+        });
+        assert_eq!(receiver.status(ms(0)).unwrap().1, Status { parked_for: ms(expected), ..status });
+    }
+}
+
+/// Load of a bus of 500 kbit/s in per mille, by what one call every 10 ms sends in 10 s. A frame of 8 bytes with a
+/// 29-bit identifier takes at most 160 bits: 131, and a stuffed bit after every fourth of those that are stuffed.
+fn load(mut cycle: impl FnMut(&mut Sender, Millis, &mut dyn FnMut(Frame))) -> usize {
+    let (mut sender, mut frames) = (Sender::new(), 0);
+    for now in (0..10_000).step_by(10) {
+        cycle(&mut sender, ms(now), &mut |_| frames += 1);
+    }
+    frames * 160 * 1000 / 10 / 500_000
+}
+
+/// CMD-3d: the link fits on buses of 500 kbit/s: outputs and status, also when every output changes in every cycle;
+/// inputs and commands. Full object lists are for a bus of their own.
+#[test]
+fn bus_load() {
+    let mut random = Random::new(3);
+    let (outputs, status) = (random.outputs(), random.status());
+    let rest = load(|sender, now, mut emit| {
+        sender.encode_outputs(now, &outputs, &mut emit);
+        sender.encode_status(now, &status, &mut emit);
+    });
+    assert!((110..130).contains(&rest), "outputs at rest {rest}");
+    let busy = load(|sender, now, mut emit| {
+        sender.encode_outputs(now, &random.outputs(), &mut emit);
+        sender.encode_status(now, &status, &mut emit);
+    });
+    assert!((400..460).contains(&busy), "every output changes in every cycle {busy}");
+    let asked = load(|sender, now, mut emit| sender.encode_commands(now, &fresh(&outputs), &mut emit));
+    assert!((95..115).contains(&asked), "commands at rest {asked}");
+    let read = load(|sender, now, mut emit| sender.encode_inputs(now, &Inputs::NEVER, &Scene::clear(), &mut emit));
+    assert!((90..130).contains(&read), "inputs, object lists empty {read}");
+}
+
 /// CMD-1d: what lies beyond the range of J1939 is sent as its end: still far outside of every envelope.
 #[test]
 fn saturation() {
@@ -108,6 +187,7 @@ fn periods() {
         let all = times(step, 10_000, |sender, now, mut emit| {
             sender.encode_inputs(now, &inputs, &scene, &mut emit);
             sender.encode_commands(now, &fresh(&outputs), &mut emit);
+            sender.encode_status(now, &Random::new(2).status(), &mut emit);
         });
         let out = times(step, 10_000, |sender, now, mut emit| sender.encode_outputs(now, &outputs, &mut emit));
         assert_eq!(all.len(), Message::COUNT);
@@ -197,6 +277,7 @@ fn counters() {
         };
         sender.encode_inputs(ms(cycle * 10), &inputs, &scene, &mut emit);
         sender.encode_outputs(ms(cycle * 10), &outputs, &mut emit);
+        sender.encode_status(ms(cycle * 10), &random.status(), &mut emit);
     }
 }
 

@@ -267,7 +267,7 @@ fn not_available_of_ours() {
     bench.send(&Inputs::NEVER, &Scene::default(), &Commands::ABSENT);
     let sample = bench.receiver.sample(ms(0));
     let text = format!("{:?}", sample.inputs);
-    assert_eq!(text.matches("NotAvailable").count(), 38, "{text}");
+    assert_eq!(text.matches("NotAvailable").count(), 42, "{text}");
     assert!(!sample.scene.radar_known && !sample.scene.camera_known);
     // The value of a type that the field has no room for is "not available", not another value.
     let full = Inputs {

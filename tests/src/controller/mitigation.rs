@@ -1,10 +1,11 @@
 //! S1 §3.1.2: warnings and the three levels of collision mitigation.
 
-use supervisor::{Class, RadarObject, Scene};
+use supervisor::Scene;
 
+use super::perception::{Sight, look};
 use super::sources::{
-    CERTAIN_UPDATES, CORRIDOR_CM, FORWARD, LEVEL_ANGLE, LEVEL_DECEL, LEVEL_EXIT_ANGLE, LEVEL_GONE_MS,
-    LEVEL_LEAST_SPEED, LEVEL_REST_MS, LEVEL_TTC_MS, PEDESTRIAN,
+    CORRIDOR_CM, FORWARD, LEVEL_ANGLE, LEVEL_DECEL, LEVEL_EXIT_ANGLE, LEVEL_GONE_MS, LEVEL_LEAST_SPEED, LEVEL_REST_MS,
+    LEVEL_TTC_MS, PEDESTRIAN,
 };
 use super::view::{Held, View};
 
@@ -21,28 +22,22 @@ pub struct Mitigation {
 }
 
 /// T < `limit`, in whole numbers: distance in cm, closing speed in cm/s, limit in ms.
-fn earlier(object: &RadarObject, limit: i64) -> bool {
-    let closing = i64::from(object.closing.raw());
-    closing > 0 && i64::from(object.distance.raw()) * 1000 < limit * closing
+fn earlier(object: &Sight, limit: i64) -> bool {
+    object.closing > 0 && object.distance * 1000 < limit * object.closing
 }
 
 /// T ≤ `limit`.
-fn earlier_or_at(object: &RadarObject, limit: i64) -> bool {
-    let closing = i64::from(object.closing.raw());
-    closing > 0 && i64::from(object.distance.raw()) * 1000 <= limit * closing
-}
-
-fn certain(object: &RadarObject) -> bool {
-    object.class != Class::Unmatched || object.updates.raw() >= CERTAIN_UPDATES
+fn earlier_or_at(object: &Sight, limit: i64) -> bool {
+    object.closing > 0 && object.distance * 1000 <= limit * object.closing
 }
 
 impl Mitigation {
     /// One cycle. `by_driver` says whether the driver steers.
     pub fn update(&mut self, scene: &Scene, view: &View, by_driver: bool) {
-        let objects: &[RadarObject] = if scene.radar_known { &scene.radar } else { &[] };
+        let objects = look(scene);
         let known = scene.radar_known && scene.camera_known;
-        let ahead = || objects.iter().filter(|o| o.offset.raw().unsigned_abs() <= CORRIDOR_CM && certain(o));
-        self.gone.update(known && !ahead().any(|object| object.closing.raw() > 0));
+        let ahead = || objects.iter().filter(|object| object.offset <= CORRIDOR_CM && object.certain);
+        self.gone.update(known && !ahead().any(|object| object.closing > 0));
         self.rest.update(view.stands);
 
         let [one, two, three] = LEVEL_TTC_MS;
@@ -64,11 +59,7 @@ impl Mitigation {
         }
 
         let warn = |on: bool, pedestrian: bool, (begin, end, offset): (i64, i64, u16)| {
-            let of_kind = |object: &&RadarObject| {
-                certain(object)
-                    && (object.class == Class::Pedestrian) == pedestrian
-                    && object.offset.raw().unsigned_abs() < offset
-            };
+            let of_kind = |object: &&Sight| object.certain && object.pedestrian == pedestrian && object.offset < offset;
             let begins = objects.iter().filter(of_kind).any(|object| earlier(object, begin));
             let holds = !known || objects.iter().filter(of_kind).any(|object| earlier_or_at(object, end));
             begins || (on && holds)

@@ -7,6 +7,7 @@ mod cruise;
 mod leave;
 mod mitigation;
 mod pace;
+mod perception;
 mod sources;
 mod view;
 

@@ -265,10 +265,24 @@ impl Bus {
         self.inputs.hv_current = known(CurrentDeciA::new(400));
     }
 
-    /// One radar object, matched as an ordinary object.
+    /// One radar object, instead of those before; the camera's stay.
     pub fn ahead(&mut self, object: RadarObject) {
         self.scene.radar.clear();
         assert!(self.scene.radar.push(object).is_ok());
+    }
+
+    /// One radar object and the camera object that matches it, instead of those before.
+    pub fn ahead_matched(&mut self, object: RadarObject, class: Class) {
+        (self.scene.radar, self.scene.camera) = Default::default();
+        self.add_matched(object, class);
+    }
+
+    /// One radar object more, and the camera object that matches it if it lies in the picture.
+    pub fn add_matched(&mut self, object: RadarObject, class: Class) {
+        assert!(self.scene.radar.push(object).is_ok());
+        if let Some(picture) = picture_of(&object, &body_of(class)) {
+            assert!(self.scene.camera.push(picture).is_ok());
+        }
     }
 
     /// An empty road, known.

@@ -263,14 +263,17 @@ pub fn change_scene(dice: &mut Dice, scene: &mut Scene) {
             closing: ClosingCmS::new(if wild { dice.signed() } else { dice.of(&[1_000, 500, 0, -100]) }),
             age: Millis::new(if dice.one_in(8) { dice.word() } else { 50 }),
             updates: Count::new(dice.byte()),
-            class: dice.of(Class::ALL),
         };
         assert!(scene.radar.push(object).is_ok());
+        if let Some(picture) = picture_of(&object, &body_of(dice.of(Class::ALL))).filter(|_| dice.flag()) {
+            // A full list leaves it out.
+            scene.camera.push(picture).unwrap_or(());
+        }
     }
     if dice.one_in(4) {
         let camera =
             CameraObject { class: dice.of(Class::ALL), ..camera_object(dice.half() % 6_000, dice.signed() % 2_000) };
-        assert!(scene.camera.push(camera).is_ok());
+        scene.camera.push(camera).unwrap_or(());
     }
 }
 

@@ -170,6 +170,14 @@ impl Bus {
         (bus, decision)
     }
 
+    /// The same, matched by the camera as this class.
+    pub fn approaching_matched(object: RadarObject, class: Class) -> (Self, Decision) {
+        let mut bus = Self::driving(kmh(50));
+        bus.ahead_matched(object, class);
+        let decision = bus.step();
+        (bus, decision)
+    }
+
     /// Driving at 50 km/h with a begun level; its object is still there.
     pub fn mitigating(level: Level) -> Self {
         let object = match level {

@@ -1,6 +1,7 @@
 //! Small words of the tests: values from the units of the specification, changes, and questions to a decision.
 
 use super::*;
+use supervisor_tests::road::{Body as Solid, Camera};
 
 /// A known signal.
 pub const fn known<T>(value: T) -> Signal<T> {
@@ -98,7 +99,7 @@ pub const STEER: Steering = Steering {
     bar_limit: BarTorque50mNm::new(60),
 };
 
-/// An object ahead on the path, matched, seen often, just measured.
+/// An object ahead on the path, seen often by the radar alone, just measured.
 pub const fn object(distance: u16, closing: i16) -> RadarObject {
     RadarObject {
         distance: DistanceCm::new(distance),
@@ -106,7 +107,6 @@ pub const fn object(distance: u16, closing: i16) -> RadarObject {
         closing: ClosingCmS::new(closing),
         age: Millis::ZERO,
         updates: Count::new(50),
-        class: Class::Object,
     }
 }
 
@@ -118,7 +118,7 @@ pub const fn at(milliseconds: u16) -> RadarObject {
     object(milliseconds, TEN)
 }
 
-/// A camera object.
+/// A camera object whose box matches nothing.
 pub fn camera_object(distance: u16, closing: i16) -> CameraObject {
     CameraObject {
         pixels: PixelBox::default(),
@@ -126,6 +126,24 @@ pub fn camera_object(distance: u16, closing: i16) -> CameraObject {
         distance: DistanceCm::new(distance),
         closing: ClosingCmS::new(closing),
         age: Millis::ZERO,
+    }
+}
+
+/// What the camera sees of a radar object of this body, at the same time: its box by the bus model's own camera.
+/// `None` outside the picture.
+pub fn picture_of(object: &RadarObject, body: &Solid) -> Option<CameraObject> {
+    let metres = |cm: f64| cm / 100.0;
+    let (gap, offset) = (metres(object.distance.raw().into()), metres(object.offset.raw().into()));
+    let RadarObject { distance, closing, age, .. } = *object;
+    let pixels = Camera::STRAIGHT.pixels(body, gap, offset)?;
+    Some(CameraObject { pixels, class: body.class, distance, closing, age })
+}
+
+/// The body whose size the supervisor assumes for a class.
+pub const fn body_of(class: Class) -> Solid {
+    match class {
+        Class::Unclassified | Class::Object => Solid { class, ..Solid::CAR },
+        Class::Pedestrian => Solid::PEDESTRIAN,
     }
 }
 

@@ -5,7 +5,7 @@
 
 use supervisor_core::*;
 use supervisor_perceive::{CameraObject, Class as ObjectClass, MAX_CAMERA, MAX_RADAR, PixelBox, RadarObject, Scene};
-use supervisor_wire::{Frame, Message, Protection, Receiver, Sender};
+use supervisor_wire::{Destination, Frame, Message, Protection, Receiver, Sender, Source};
 
 /// A small generator (xorshift): the same seed gives the same values.
 #[derive(Debug)]
@@ -101,7 +101,15 @@ impl Random {
             eps: self.signal(|r| r.one(EpsState::ALL)),
             hands_off: self.signal(Self::bool),
             ads: self.signal(|r| r.one(AdsState::ALL)),
-            ..Inputs::NEVER
+            electric_actual: self.signal(|r| DecelMs2Q11::new(r.word())),
+            mass: self.signal(|r| Mass10Kg::new(r.word())),
+            axle_pressure: [
+                self.signal(|r| Pressure5KPa::new(r.u8().min(254))),
+                self.signal(|r| Pressure5KPa::new(r.u8().min(254))),
+            ],
+            // No signals: what the receiver finds on the bus of the actuators.
+            foreign: Channels::NONE,
+            second_sender: false,
         }
     }
 
@@ -161,6 +169,23 @@ impl Random {
         }
     }
 
+    /// Every value the frames can carry: a time parked is told up to 2^20 - 2 ms.
+    pub fn status(&mut self) -> Status {
+        let faults = u32::from(self.u16()) << 16 | u32::from(self.u16());
+        Status {
+            occupancy: self.one(Occupancy::ALL),
+            parked_by_leave: self.bool(),
+            parked_for: ms(u32::try_from(self.below((1 << 20) - 1)).unwrap()),
+            stage: self.one(Stage::ALL),
+            level: self.one(Level::ALL),
+            mode: self.one(Mode::ALL),
+            exit: self.one(ExitReason::ALL),
+            safe_state: self.bool(),
+            faults: Faults::from_word(faults).unwrap(),
+            record: self.one(Record::ALL),
+        }
+    }
+
     pub fn radar(&mut self) -> RadarObject {
         RadarObject {
             distance: DistanceCm::new(self.u16()),
@@ -168,7 +193,6 @@ impl Random {
             closing: ClosingCmS::new(self.u16().cast_signed()),
             age: Millis::new(u32::from(self.u16().min(510))),
             updates: Count::new(self.u8()),
-            class: self.one(ObjectClass::ALL),
         }
     }
     pub fn camera(&mut self) -> CameraObject {
@@ -204,6 +228,12 @@ pub fn at_once() -> Config {
 
 pub fn ms(value: u32) -> Millis {
     Millis::new(value)
+}
+
+/// The receiver that takes this message: only the status comes from the supervisor.
+pub fn receiver_of(message: Message, config: &Config) -> Receiver {
+    let from_us = message.destination() == Destination::Status;
+    Receiver::listening_to(if from_us { Source::Supervisor } else { Source::MainController }, config)
 }
 
 /// One sender of everything and the receiver of it.
@@ -258,6 +288,7 @@ pub fn frame(message: Message, inputs: &Inputs, outputs: &Outputs, counter: u8) 
         // More than any period: everything is due.
         sender.encode_inputs(ms(time * 1000), inputs, &Scene::clear(), &mut emit);
         sender.encode_commands(ms(time * 1000), &fresh(outputs), &mut emit);
+        sender.encode_status(ms(time * 1000), &Random::new(1).status(), &mut emit);
     }
     found.unwrap()
 }
