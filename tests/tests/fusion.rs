@@ -249,7 +249,7 @@ fn the_threshold_is_exact() {
         overlap.is_some_and(|overlap| overlap.exceeds(Overlap::threshold(percent(share))))
     };
     // 13 wide, 7 apart: 6 of 20. 13 wide, 6 apart: 7 of 19.
-    assert_eq!(overlap(13, 13, 7), Some(Overlap { shared: 60, union: 200 }));
+    assert_eq!(overlap(13, 13, 7), Some(Overlap { shared: 60, sum: 260 }));
     assert!(!exceeds(overlap(13, 13, 7), 30) && exceeds(overlap(13, 13, 7), 29));
     assert!(exceeds(overlap(13, 13, 6), 36) && !exceeds(overlap(13, 13, 6), 37));
     // Touching, apart, the same, one inside the other.

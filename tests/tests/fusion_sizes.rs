@@ -21,7 +21,7 @@ fn share(body: &Body, gap: u16, camera: Camera) -> Option<f64> {
     let cast = Boxed::of(lens.outline(foot, lens.size(size)));
     let seen = Boxed::of(lens.seen(camera.pixels(body, f64::from(gap), 0.0)?));
     let overlap = cast.overlap(&seen)?;
-    Some(100.0 * f64::from(overlap.shared) / f64::from(overlap.union))
+    Some(100.0 * f64::from(overlap.shared) / f64::from(overlap.sum - overlap.shared))
 }
 
 fn cell(share: Option<f64>) -> String {

@@ -46,10 +46,16 @@ fn full(pixels: impl Fn(u16) -> PixelBox) -> Scene {
 
 fn main() {
     const CALLS: u32 = 100;
-    // The projected box has about 71 by 59 pixels at column 605, row 368.
+    // An object's projected box has 79 by 79 pixels from column 600, row 348; a pedestrian's 20 by 67 from 630, 360.
     let scene = match std::env::args().nth(1).as_deref() {
-        Some("same") => full(|_| PixelBox { left: 605, top: 368, width: 71, height: 59 }),
-        Some("near") => full(|_| PixelBox { left: 660, top: 400, width: 71, height: 59 }),
+        Some("same") => full(|index| {
+            if index.is_multiple_of(2) {
+                PixelBox { left: 600, top: 348, width: 79, height: 79 }
+            } else {
+                PixelBox { left: 630, top: 360, width: 20, height: 67 }
+            }
+        }),
+        Some("near") => full(|_| PixelBox { left: 635, top: 400, width: 90, height: 90 }),
         Some("apart") => full(|index| PixelBox { left: index.saturating_mul(30), top: 368, width: 20, height: 59 }),
         _ => Scene::clear(),
     };

@@ -34,13 +34,16 @@ pub struct Boxed {
     area: u32,
 }
 
-/// Intersection and union of two boxes.
+/// Intersection of two boxes, and the sum of their areas.
+///
+/// The sum is intersection and union together, so that the greater share of the sum is the greater share of the union:
+/// s/(S − s) rises with s/S. It saves a subtraction in each of 512 pairs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Overlap {
     /// Area of the intersection.
     pub shared: u32,
-    /// Area of the union, never less. An image of up to 4096 px on each side has 2³⁰ square steps: nothing saturates.
-    pub union: u32,
+    /// Both areas. An image of up to 4096 px on each side has 2³⁰ square steps: nothing saturates.
+    pub sum: u32,
 }
 
 fn common(first: Span, second: Span) -> u16 {
@@ -73,21 +76,21 @@ impl Boxed {
             return None;
         }
         let shared = area(width, height);
-        Some(Overlap { shared, union: self.area.saturating_add(other.area).saturating_sub(shared) })
+        Some(Overlap { shared, sum: self.area.saturating_add(other.area) })
     }
 }
 
 impl Overlap {
-    /// The share that a match must exceed.
+    /// The share that a match must exceed: p of 100 of the union are p of 100 + p of the sum.
     #[must_use]
     pub fn threshold(share: Percent) -> Self {
-        Self { shared: share.raw().into(), union: 100 }
+        Self { shared: share.raw().into(), sum: u32::from(share.raw()).saturating_add(100) }
     }
 
     /// Both shares, on one denominator: 32 by 32 bits each, exact.
     fn shares(self, other: Self) -> (u64, u64) {
-        let product = |shared: u32, union: u32| u64::from(shared).saturating_mul(u64::from(union));
-        (product(self.shared, other.union), product(other.shared, self.union))
+        let product = |shared: u32, sum: u32| u64::from(shared).saturating_mul(u64::from(sum));
+        (product(self.shared, other.sum), product(other.shared, self.sum))
     }
 
     /// FUS-3a: intersection over union is greater than the other's.
