@@ -84,6 +84,10 @@ impl Oracle {
         brake(inputs, speed, decision);
         steering(&self.steering, elapsed, decision);
         rest(standstill, decision);
+        split(inputs, decision);
+        actuators(inputs, decision);
+        parking_at_speed(inputs, commands, speed, decision);
+        self.latches(inputs, elapsed, standstill, decision);
         verdicts(commands, decision);
         assert!(decision.envelope.is_feasible(), "SELF-2d, RULE-4a: {:?}", decision.envelope);
 
@@ -92,6 +96,69 @@ impl Oracle {
         self.torque = decision.outputs.drive.torque.raw();
         self.steering = decision.outputs.steering;
     }
+}
+
+impl Oracle {
+    /// SELF-7: what clears a latched fault, and what it keeps closed.
+    #[track_caller]
+    fn latches(&self, inputs: &Inputs, elapsed: Option<u32>, standstill: bool, decision: &Decision) {
+        let Some(before) = self.before else { return };
+        let latched = [Faults::CLOCK_LATCHED, Faults::STATE, Faults::FLOW, Faults::CONFIGURATION, Faults::CONTACTOR];
+        for fault in latched {
+            if before.faults.contains(fault) && !decision.status.faults.contains(fault) {
+                assert!(standstill && inputs.epb == known(EpbState::Applied), "SELF-7a: {fault:?}");
+                assert!(elapsed.is_some(), "SELF-7b: no clearing in a cycle with a clock fault");
+                assert!(matches!(inputs.key, Signal::Known(Key::On | Key::Start)), "SELF-7c: {fault:?}");
+                assert_ne!(fault, Faults::CONFIGURATION, "SELF-4: a restart only");
+            }
+        }
+        assert!(!decision.status.faults.contains(Faults::CONTACTOR) || !closes(decision), "SELF-7: nothing closes");
+    }
+}
+
+/// VLC-2, VLC-3: no electric part without grip, nor beyond its limit.
+#[track_caller]
+fn split(inputs: &Inputs, decision: &Decision) {
+    let electric = decision.outputs.brake.electric;
+    if electric > DecelMs2Q11::ZERO {
+        let grip = [inputs.abs, inputs.asr, inputs.stability];
+        assert_eq!(grip, [known(false); 3], "VLC-2b: electric part with slip control at work or unknown");
+        assert!(inputs.electric_limit.known().is_some_and(|limit| electric <= limit), "VLC-2c, VLC-2d");
+        assert!(!decision.status.faults.contains(Faults::SPLIT_IMPLAUSIBLE), "VLC-3a");
+    }
+}
+
+/// RSP-1, TRQ-7, SELF-6, SELF-10: what was found is reported, and no torque goes out against it.
+#[track_caller]
+fn actuators(inputs: &Inputs, decision: &Decision) {
+    let Decision { outputs, status, .. } = decision;
+    let foreign = inputs.foreign != Channels::NONE;
+    assert!(!foreign || status.faults.contains(Faults::BYPASS), "SELF-10a");
+    assert_eq!(inputs.second_sender, status.faults.contains(Faults::SECOND_SENDER), "SELF-10b");
+    assert_eq!(inputs.ebs_red == known(true), status.faults.contains(Faults::EBS_RED), "RSP-1m");
+    let past_us = status.faults.and(Faults::BYPASS.with(Faults::SECOND_SENDER)) != Faults::NONE;
+    let excess = status.faults.contains(Faults::EXCESS_TORQUE);
+    assert!(!(past_us || excess) || outputs.drive.torque == Percent::ZERO, "SELF-10c, TRQ-7b");
+    assert!(!(past_us || excess) || status.mode == Mode::Manual, "SELF-10c, TRQ-7b: the mode ends");
+    let abs = inputs.abs == known(true);
+    assert!(!abs || !status.faults.contains(Faults::BRAKE_RESPONSE), "RSP-1l");
+    assert!(!abs || outputs.retarder.torque == Percent::ZERO, "RET-1");
+    assert_eq!(decision.flow, Flow::COMPLETE, "SELF-6a: every stage ran once and in order");
+}
+
+/// EPB-1: above 1.5 km/h the parking brake is applied for the driver's switch, or for brakes that fall short of an
+/// obligation.
+#[track_caller]
+fn parking_at_speed(inputs: &Inputs, commands: &Commands, speed: Option<(u16, u16)>, decision: &Decision) {
+    let fast = speed.is_some_and(|(low, _)| low >= 384);
+    if !fast || decision.outputs.epb.request != EpbRequest::Apply {
+        return;
+    }
+    let Status { occupancy, level, safe_state, faults, .. } = decision.status;
+    let by_switch = inputs.epb_switch == known(EpbSwitch::Apply);
+    let obliged = occupancy == Occupancy::Leave || level == Level::Three;
+    let unbraked = obliged && !safe_state && inputs.abs == known(false) && faults.contains(Faults::BRAKE_RESPONSE);
+    assert!(by_switch || unbraked, "EPB-1a, EPB-1b, EPB-1c: asked {:?}", commands.epb);
 }
 
 #[track_caller]
