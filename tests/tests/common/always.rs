@@ -64,6 +64,11 @@ impl Oracle {
     pub const NEW: Self =
         Self { last: None, occupied: None, before: None, torque: 0, steering: Steering::NEUTRAL, earned: 0 };
 
+    /// After a change of the retained state: only what went out last is still known, and fades from there.
+    pub fn anew(&self) -> Self {
+        Self { steering: self.steering, ..Self::NEW }
+    }
+
     /// Judges one cycle.
     #[track_caller]
     pub fn judge(&mut self, now: u32, inputs: &Inputs, commands: &Commands, decision: &Decision) {

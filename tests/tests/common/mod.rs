@@ -135,7 +135,7 @@ impl Bus {
     /// The retained words, for fault injection.
     pub fn with_image(&self, change: impl Fn(StateImage) -> StateImage) -> Self {
         let image = change(*self.supervisor.image());
-        Self { supervisor: self.supervisor.clone().with_image(image), oracle: always::Oracle::NEW, ..self.clone() }
+        Self { supervisor: self.supervisor.clone().with_image(image), oracle: self.oracle.anew(), ..self.clone() }
     }
 
     /// A reset between two cycles: the record is what the last decision asked to persist, the clock starts anew.
