@@ -61,7 +61,6 @@ fn both_in_level_three() {
 
 /// EPB-1b, RSP-1k: a parking brake that makes up for the brakes is not released again while level 3 runs.
 #[test]
-#[ignore = "does not hold yet: once it helps, a release passes (decide: unbraked, Parking::bound)"]
 fn the_parking_brake_stays() {
     let mut bus = unbraked_level_three();
     assert!(bus.time_until(CYCLE, 2_000, applies).is_some());
