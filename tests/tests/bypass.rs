@@ -84,7 +84,7 @@ fn hold_time_and_clock() {
     }
 }
 
-/// SELF-10c, MODE-1: an automated mode ends, for this reason, and needs new driver evidence.
+/// SELF-10c, MODE-1e: an automated mode ends, for this reason, and needs new driver evidence.
 #[test]
 fn ends_the_mode() {
     let causes: [Change; 2] = [
@@ -138,7 +138,7 @@ fn gear_alone() {
     assert!(bypassed(&bus.step()), "D was asked for, not R");
 }
 
-/// SELF-10a, RULE-1: a gear that was unknown in between did not move; one first seen did not move either.
+/// SELF-10a, RULE-1b: a gear that was unknown in between did not move; one first seen did not move either.
 #[test]
 fn gear_unknown() {
     let mut bus = pulling();
@@ -210,7 +210,7 @@ fn parking_brake_vacant() {
     assert!(!bypassed(&decision) && decision.outputs.brake.total == DecelMs2Q11::ZERO, "it holds again");
 }
 
-/// SELF-10c, SEAT-4: not applied by this at 1.5 km/h, but one bit below; held below 2 km/h.
+/// SELF-10c, SEAT-4a: not applied by this at 1.5 km/h, but one bit below; held below 2 km/h.
 #[test]
 fn parking_brake_rolling() {
     for (speed, expected) in [(KMH_1_5, false), (bit_below(KMH_1_5), true)] {

@@ -81,7 +81,7 @@ fn clears(bus: &mut Bus, fault: Faults) -> bool {
     !key(bus, Key::On).contains(fault)
 }
 
-/// SELF-7: each cause latches; the four of the supervisor itself are the safe state, a contactor's is not.
+/// SELF-7a: each cause latches; the four of the supervisor itself are the safe state, a contactor's is not.
 #[test]
 fn causes() {
     for Latched { name, fault, make } in ALL {
@@ -97,7 +97,7 @@ fn causes() {
     assert!(!bus.step().status.safe_state, "SELF-3: two clock faults are not three");
 }
 
-/// SEAT-7h, SELF-7: K4 or K1 overdue latches the contactor fault, to the cycle.
+/// SEAT-7h, SELF-7a: K4 or K1 overdue latches the contactor fault, to the cycle.
 #[test]
 fn overdue() {
     let contactor = |decision: &Decision| decision.status.faults.contains(Faults::CONTACTOR);
@@ -260,7 +260,7 @@ fn new_cause() {
     }
 }
 
-/// SELF-4e, SELF-7: a configuration fault stays whatever the driver does; a restart reads it anew.
+/// SELF-4e, SELF-7c: a configuration fault stays whatever the driver does; a restart reads it anew.
 #[test]
 fn configuration() {
     let latched = |state: State| {
@@ -280,7 +280,7 @@ fn configuration() {
     assert!(cycle(&mut bus).status.safe_state);
 }
 
-/// SELF-7, SELF-5f: in the safe state nothing moves, and after clearing it does again.
+/// SELF-7c, SELF-5f: in the safe state nothing moves, and after clearing it does again.
 #[test]
 fn safe_state_ends() {
     for Latched { name, fault, make } in SAFE {
@@ -296,7 +296,7 @@ fn safe_state_ends() {
     }
 }
 
-/// SELF-7, HV-1: a contactor latch is not the safe state, but nothing closes until it is cleared.
+/// SELF-7a, HV-1d: a contactor latch is not the safe state, but nothing closes until it is cleared.
 #[test]
 fn contactor_closes_nothing() {
     let mut bus = Bus::asking_to_close();
@@ -317,7 +317,7 @@ fn contactor_closes_nothing() {
     assert!(closes(&bus.step()), "cleared by the same key cycle that restarts");
 }
 
-/// SELF-7, SEAT-7: the latch does not keep contactors from opening after leave.
+/// SELF-7a, SEAT-7a: the latch does not keep contactors from opening after leave.
 #[test]
 fn contactor_still_opens() {
     let mut bus = Bus::opening_k4();

@@ -98,7 +98,7 @@ fn bound(line: &str) -> Option<&'static str> {
     BOUNDS.iter().find(|(over, _)| !endless && line.contains(over)).map(|(_, bound)| *bound)
 }
 
-/// SELF-1: each loop of the shipped crates runs over something of a constant length.
+/// SELF-1d: each loop of the shipped crates runs over something of a constant length.
 #[test]
 fn every_loop_of_the_shipped_crates_has_a_constant_bound() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../supervisor");
@@ -120,7 +120,7 @@ fn every_loop_of_the_shipped_crates_has_a_constant_bound() {
     assert!(count > 30, "the sources were found: {count}");
 }
 
-/// SELF-1: the search finds loops and nothing else, and knows no bound of what nobody bounded.
+/// SELF-1d: the search finds loops and nothing else, and knows no bound of what nobody bounded.
 #[test]
 fn the_search_finds_loops() {
     for line in ["for x in y {", "    while x {", "loop {", "'a: loop {", "a.iter().max()", "let a = b.fold(0, f);"] {

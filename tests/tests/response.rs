@@ -206,7 +206,7 @@ fn brake_antilock() {
     assert_eq!(reported(&mut bus, Faults::BRAKE_RESPONSE), Some(1_100));
 }
 
-/// RSP-1g, RULE-1: unknown feedback is evidence for neither: the time stands still, and what was found stays.
+/// RSP-1g, RULE-1d: unknown feedback is evidence for neither: the time stands still, and what was found stays.
 #[test]
 fn brake_unknown_freezes() {
     let losses: [Edit; 2] =
@@ -441,7 +441,7 @@ fn brake_step_from_a_level() {
     assert!(!seen, "from its first response, 700 ms");
 }
 
-/// RSP-1g, RULE-6: speeds that disagree are an unknown speed: what was found stays.
+/// RSP-1g, RULE-6c: speeds that disagree are an unknown speed: what was found stays.
 #[test]
 fn brake_speeds_disagree() {
     let mut bus = told(kmh(50), TWO);
@@ -472,7 +472,7 @@ fn limits_beside_the_retarder() {
     assert_eq!(reported(&mut bus, Faults::BRAKE_RESPONSE), None);
 }
 
-/// RSP-1d, RULE-1: a gear that is unknown now and then stops the time, but does not begin it anew.
+/// RSP-1d, RULE-1d: a gear that is unknown now and then stops the time, but does not begin it anew.
 #[test]
 fn gear_unknown_now_and_then() {
     let mut bus = shifting();

@@ -103,7 +103,7 @@ fn weaker_demands() {
     assert!(decision.outputs.warnings.fault_lamp);
 }
 
-/// RSP-1l, EPB-1c, RET-1: with ABS at work or unknown neither the retarder nor the parking brake is called.
+/// RSP-1l, EPB-1c, RET-1b: with ABS at work or unknown neither the retarder nor the parking brake is called.
 #[test]
 fn antilock() {
     for abs in [known(true), unknown(Cause::Stale)] {
@@ -292,7 +292,7 @@ fn excess_persists() {
     assert!(!braked(&bus.step()), "it ends with the excess");
 }
 
-/// TRQ-7b, MODE-1: an automated mode ends.
+/// TRQ-7b, MODE-1e: an automated mode ends.
 #[test]
 fn excess_ends_the_mode() {
     let mut bus = Bus::automated(kmh(30));

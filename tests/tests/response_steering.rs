@@ -83,7 +83,7 @@ fn moving_target() {
     }
 }
 
-/// RSP-1f, RULE-1: an unknown angle freezes nothing for long: without it automatic steering fades out (STR-2).
+/// RSP-1f, RULE-1b: an unknown angle freezes nothing for long: without it automatic steering fades out (STR-2).
 #[test]
 fn unknown_angle() {
     let mut bus = told(30);
@@ -114,7 +114,7 @@ fn ends_steering() {
     assert!(bus.run_for(100).outputs.steering.enable, "asked for anew");
 }
 
-/// RSP-1k, STR-2: in leave there is nobody to hand over to: reported, and steering goes on.
+/// RSP-1k, STR-2h: in leave there is nobody to hand over to: reported, and steering goes on.
 #[test]
 fn leave_continues() {
     let mut bus = Bus::steering(kmh(20));
@@ -160,7 +160,7 @@ fn astray_is_no_takeover() {
     assert!(seen, "it did not follow");
 }
 
-/// RSP-1k, STR-2, RULE-1: a frame that is lost or rejected asks for nothing: steering that did not follow stays barred.
+/// RSP-1k, STR-2d, RULE-1c: a frame that is lost or rejected asks for nothing: steering that did not follow stays barred.
 #[test]
 fn a_lost_frame_asks_for_nothing() {
     for command in [Command::Absent, Command::Rejected(Rejection::Checksum)] {

@@ -113,12 +113,12 @@ fn envelope(
     let held = permit!(!must.safe_state => Reason::SafeState);
     let sound = permit!(!next.latches.contactor() => Reason::ContactorFault);
     let (k4, k1) = high_voltage.bounds(evidence, inputs, held, sound, config);
-    // EPB-1: the brakes fall short of leave or level 3, and not because ABS works.
+    // EPB-1b, EPB-1c: the brakes fall short of leave or level 3, and not because ABS works.
     let unbraked = response.brake == Deviation::Persistent
         && (seat.leave || mitigation.three)
         && inputs.abs.is(false)
         && !must.safe_state;
-    // What helps is not taken away while it is needed.
+    // RSP-1k: what helps is not taken away while it is needed.
     let helps = response.brake != Deviation::None && (seat.leave || mitigation.three);
     let forced = if unbraked {
         Some(Reason::BrakeResponse)

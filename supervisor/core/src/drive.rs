@@ -60,6 +60,7 @@ pub(crate) struct Obligations {
 }
 
 impl Obligations {
+    // SELF-10c, TRQ-7b: among them a bypass and a drive that does not obey.
     const fn reason(self) -> Option<Reason> {
         if self.safe_state {
             Some(Reason::SafeState)
@@ -225,7 +226,7 @@ impl Drive {
         // Rule 1: no automated torque towards an obstacle, at whatever speed; MIT-6's gates only end obligations.
         automated.lower_if(threat.level != Level::None, Percent::ZERO, Reason::ObstacleAhead);
         automated.lower(config.automated_torque, Reason::AccelerationBound);
-        // VLC-1: the longitudinal mode that is not configured may not command.
+        // VLC-1a, VLC-1c, VLC-1d: the longitudinal mode that is not configured may not command.
         let by_epbi = config.longitudinal_mode != Count::ZERO;
 
         let tired = self.hill.due(config.hill_hold, ticks.safety);

@@ -109,6 +109,7 @@ pub fn vet_brake(envelope: &Envelope, command: Command<ServiceBrake>) -> (Servic
         cause = Some(Verdict::fact(Kind::Substitute, Reason::BrakeMode, value, limit));
         (out.mode, out.priority) = (BrakeMode::Maximum, Priority::Highest);
     }
+    // VLC-2c, VLC-2e, VLC-2g: a limit of the electric part leaves the total as it is; friction takes over in the same cycle.
     out.electric = wanted.electric.min(bound.electric);
     if out.electric < wanted.electric {
         cause = Some(Verdict::above(Kind::Limit, Reason::ElectricLimit, wanted.electric.wide(), bound.electric.wide()));
@@ -119,7 +120,7 @@ pub fn vet_brake(envelope: &Envelope, command: Command<ServiceBrake>) -> (Servic
     }
     if wanted.total < bound.floor.most {
         out.total = bound.floor.most;
-        // VLC-2: what we ask for ourselves is split electric first; friction fills up.
+        // VLC-1b, VLC-2a: what we ask for ourselves is split electric first; friction fills up.
         out.electric = bound.electric.min(out.total);
         cause =
             Some(Verdict::below(Kind::Substitute, bound.floor.reason, wanted.total.wide(), bound.floor.most.wide()));

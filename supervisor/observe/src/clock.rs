@@ -31,7 +31,7 @@ pub struct Ticks {
 }
 
 impl Clock {
-    /// SELF-3: judges the time since the last cycle.
+    /// END-1b, SELF-3: judges the time since the last cycle.
     #[must_use]
     pub fn advance(self, now: Millis, config: &Config) -> (Self, Ticks) {
         let elapsed = Millis::new(now.raw().wrapping_sub(self.last.raw()));

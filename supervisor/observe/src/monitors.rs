@@ -84,7 +84,7 @@ fn allowed(time: Millis, config: &Config) -> Millis {
 }
 
 impl Monitors {
-    /// Compares the feedback of this cycle with the last output.
+    /// RSP-1d, RSP-1e, SELF-10a, SELF-10b: compares the feedback of this cycle with the last output.
     #[must_use]
     pub fn advance(self, evidence: &Evidence, inputs: &Inputs, ticks: Ticks, config: &Config) -> (Self, Response) {
         let (gearbox, gear_alone) = self.gearbox.advance(inputs.gear.known());
@@ -158,7 +158,7 @@ impl Monitors {
         self.brake.fails(allowed(inner, config), allowed(outer, config))
     }
 
-    /// RSP-1a, f, TRQ-7: executed torque against the last output.
+    /// RSP-1a, f, TRQ-7a: executed torque against the last output.
     fn with_drive(self, inputs: &Inputs, elapsed: Millis, config: &Config) -> Self {
         let executed = percent(inputs.executed_torque);
         // Below the idle torque the drive need not answer (S4 table 2); slip control may take torque away.

@@ -139,7 +139,7 @@ struct Seen {
     best: Best,
 }
 
-/// FUS-3: the class that the camera gives to each radar object, in the order of the radar's list; `None` if unmatched.
+/// FUS-3a, FUS-3b: the class that the camera gives to each radar object, in the order of the radar's list; `None` if unmatched.
 ///
 /// FUS-1: the common time is that of the image, the age of the newest camera object. (The objects of one image have
 /// one age; should a list mix images, its older boxes are compared a little late, which may cost a match.) An object

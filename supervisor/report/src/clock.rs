@@ -30,7 +30,7 @@ impl Clock {
 mod tests {
     use super::*;
 
-    /// END-1: a wrap of the clock counts as what it is, a leap either way as one nominal cycle.
+    /// END-1b: a wrap of the clock counts as what it is, a leap either way as one nominal cycle.
     #[test]
     fn a_wrap_is_nothing_and_a_leap_is_one_cycle() {
         let mut clock = Clock::NEW;

@@ -92,7 +92,7 @@ impl FaultReport {
         Self { clock: Clock::NEW, up: Timer::STOPPED, settle, debounce, heal, entries: [Entry::NEW; CODES] }
     }
 
-    /// Takes a cycle. `body` comes from [`BodyMonitor`](crate::BodyMonitor), or is [`BodyFaults::NONE`]; it has lasted
+    /// RULE-5b, RPT-1c: takes a cycle. `body` comes from [`BodyMonitor`](crate::BodyMonitor), or is [`BodyFaults::NONE`]; it has lasted
     /// its second already and is not debounced again.
     pub fn observe(&mut self, now: Millis, decision: &Decision, body: BodyFaults) {
         let elapsed = self.clock.elapsed(now);

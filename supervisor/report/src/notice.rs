@@ -13,7 +13,7 @@ pub struct ExitNotice {
     pub ads: &'static str,
 }
 
-/// The notice of an exit; `None` while the mode has not ended.
+/// RPT-1a, RPT-1b: the notice of an exit; `None` while the mode has not ended.
 #[must_use]
 pub const fn exit_notice(reason: ExitReason) -> Option<ExitNotice> {
     let (driver, ads) = match reason {

@@ -40,7 +40,7 @@ impl<T, const N: usize> Ring<T, N> {
 mod tests {
     use super::Ring;
 
-    /// RPT-1: a full ring keeps the newest and counts the rest.
+    /// RPT-1a: a full ring keeps the newest and counts the rest.
     #[test]
     fn a_full_ring_keeps_the_newest_and_counts_the_rest() {
         let (mut ring, mut one) = (Ring::<u8, 3>::new(), Ring::<u8, 1>::new());

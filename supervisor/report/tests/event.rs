@@ -31,7 +31,7 @@ fn limited(decision: &Decision, channel: usize) -> Decision {
     Decision { verdicts: Verdicts::new(list), ..*decision }
 }
 
-/// RPT-1: the record holds the newest changes and counts what it dropped.
+/// RPT-1a: the record holds the newest changes and counts what it dropped.
 #[test]
 fn the_record_is_bounded_and_counts_what_it_drops() -> Outcome {
     let mut image = StateImage::encode(&State::boot(ResetCause::PowerOn, Some(Record::None)));
@@ -46,7 +46,7 @@ fn the_record_is_bounded_and_counts_what_it_drops() -> Outcome {
     Ok(())
 }
 
-/// RPT-1: a channel that stops passing is kept once with verdict, status, bounds and inputs; not while it goes on.
+/// RPT-1a: a channel that stops passing is kept once with verdict, status, bounds and inputs; not while it goes on.
 #[test]
 fn the_first_verdict_that_is_no_pass_keeps_its_surroundings() -> Outcome {
     let mut passing = passing()?;
@@ -79,7 +79,7 @@ fn the_first_verdict_that_is_no_pass_keeps_its_surroundings() -> Outcome {
     Ok(())
 }
 
-/// RPT-1: safe state, leave and a rising level are kept when they begin, the gravest of one cycle; not when they end.
+/// RPT-1a: safe state, leave and a rising level are kept when they begin, the gravest of one cycle; not when they end.
 #[test]
 fn what_is_grave_is_kept_when_it_begins() -> Outcome {
     let passing = passing()?;
@@ -115,7 +115,7 @@ fn what_is_grave_is_kept_when_it_begins() -> Outcome {
     Ok(())
 }
 
-/// RPT-1: a channel that flickers never pushes out what is grave; what is dropped is counted.
+/// RPT-1a: a channel that flickers never pushes out what is grave; what is dropped is counted.
 #[test]
 fn flicker_does_not_push_out_what_is_grave() -> Outcome {
     let passing = passing()?;
@@ -134,7 +134,7 @@ fn flicker_does_not_push_out_what_is_grave() -> Outcome {
     Ok(())
 }
 
-/// RPT-1: several channels that stop in one cycle are one snapshot: their surroundings are the same.
+/// RPT-1a: several channels that stop in one cycle are one snapshot: their surroundings are the same.
 #[test]
 fn one_cycle_is_one_snapshot() -> Outcome {
     let mut image = StateImage::encode(&State::boot(ResetCause::PowerOn, Some(Record::None)));
@@ -147,7 +147,7 @@ fn one_cycle_is_one_snapshot() -> Outcome {
     Ok(())
 }
 
-/// RPT-1: what the record costs, so that its documentation stays true.
+/// RPT-1a: what the record costs, so that its documentation stays true.
 #[test]
 fn the_record_costs_what_it_says() {
     println!("Event {} B, Snapshot {} B", size_of::<Event>(), size_of::<Snapshot>());

@@ -160,7 +160,7 @@ fn a_body_fault_is_reported_at_once_and_heals_like_any() -> Outcome {
     Ok(())
 }
 
-/// END-1: neither a wrap of the clock nor a leap ripens a report.
+/// END-1b: neither a wrap of the clock nor a leap ripens a report.
 #[test]
 fn the_clock_may_wrap_and_leap() -> Outcome {
     let faulty = with(&quiet()?, Faults::CLOCK);

@@ -125,7 +125,7 @@ impl Timer {
     /// Not running.
     pub const STOPPED: Self = Self(0);
 
-    /// Starts a stopped timer at 0 ms, or adds `elapsed` to a running one.
+    /// END-1a: starts a stopped timer at 0 ms, or adds `elapsed` to a running one.
     #[must_use]
     pub fn run(self, elapsed: Millis) -> Self {
         if self.0 == 0 { Self(1) } else { Self(self.0.saturating_add(elapsed.0)) }
