@@ -1,4 +1,5 @@
-//! The drives that ship in `tests/drives`: S1's approach and S3's empty seat, each with both main controllers.
+//! The drives that ship in `tests/drives`: S1's approach and S3's empty seat, each with both main controllers, and a
+//! bus whose actuators fail.
 
 use supervisor::{Channel, EpbSwitch, Gear, Key, Reason};
 
@@ -63,6 +64,40 @@ const SEAT: Script<'static> = &[
     (694_000, Act::EpbSwitch(EpbSwitch::Apply)),
     (695_500, Act::EpbSwitch(EpbSwitch::Idle)),
     (696_500, Act::Brake(0.0)),
+];
+
+/// The driver lets the accelerator go at 30 km/h, brakes, drives on, and gets up at 40 km/h.
+const FAULTY: Script<'static> = &[
+    (5000, Act::Key(Key::Start)),
+    (5500, Act::Key(Key::On)),
+    (6500, Act::Brake(0.4)),
+    (7000, Act::Selector(Gear::Drive)),
+    (8000, Act::EpbSwitch(EpbSwitch::Release)),
+    (9500, Act::EpbSwitch(EpbSwitch::Idle)),
+    (10_000, Act::Brake(0.0)),
+    (10_500, Act::Hold(30.0)),
+    (26_000, Act::Accelerator(0.0)),
+    (30_000, Act::Hold(40.0)),
+    (45_700, Act::Accelerator(0.0)),
+    (46_000, Act::Sit(false)),
+];
+
+const ACTUATORS: &[Misdeed] = &[
+    misdeed(
+        25_500,
+        29_500,
+        Deed::DrivePushes,
+        "the drive pushes with half its torque, the accelerator is released",
+        &[(Channel::DriveTorque, Reason::ExcessTorque), (Channel::ServiceBrake, Reason::ExcessTorque)],
+    ),
+    misdeed(
+        46_000,
+        62_000,
+        Deed::BrakesFade,
+        "the service brake gives a tenth of what it is told, the seat is empty",
+        &[(Channel::Retarder, Reason::BrakeResponse), (Channel::ParkingBrake, Reason::BrakeResponse)],
+    ),
+    misdeed(75_000, 75_100, Deed::ParkingBrakeLetsGo, "the parking brake lets go by itself, the seat is empty", &[]),
 ];
 
 /// Every channel, refused for a frame that does not come or does not pass its check.
@@ -303,6 +338,19 @@ pub const ALL: &[Scenario<'static>] = &[
             happen: to release the parking brake, to shift, to drive, to open K1 before K4, to close high voltage. \
             Every misdeed is refused; the bus is stopped, parked and shut down as S3 asks for.",
         misdeeds: WITHOUT_DRIVER,
+        ..SEAT_CORRECT
+    },
+    Scenario {
+        name: "actuators-faulty",
+        title: "Actuators that do not obey",
+        description: "The main controller is correct, the vehicle fails. The drive goes on pushing: torque 0, then the \
+            service brake against it. The driver gets up at 40 km/h and the service brake gives next to nothing: the \
+            retarder helps, then the parking brake. Parked, the parking brake lets go: it is applied again. Each is a \
+            trouble code.",
+        length_ms: 90_000,
+        script: FAULTY,
+        road: &[],
+        misdeeds: ACTUATORS,
         ..SEAT_CORRECT
     },
 ];

@@ -105,6 +105,7 @@ fn closed_loop(scenario: &Scenario, obeyed: impl Fn(&Decision, &Outputs) -> Outp
         let (mut sent, mut tampering) = (wanted, None);
         for misdeed in scenario.misdeeds.iter().filter(|misdeed| misdeed.active(now_ms)) {
             misdeed.deed.corrupt(&mut sent);
+            plant.suffer(misdeed.deed);
             tampering = tampering.or(misdeed.deed.tampers().then_some(misdeed.deed));
         }
         let due = pace.next(&sent);

@@ -1,4 +1,4 @@
-//! What a misbehaving main controller does, when, and what must come of it.
+//! What a misbehaving main controller, or a failing vehicle, does, when, and what must come of it.
 
 use supervisor::{
     AngleDeciDeg, Auxiliaries, BarTorque50mNm, Body, BrakeMode, Channel, ContactorRequest, DecelMs2Q11, DriveTorque,
@@ -43,6 +43,12 @@ pub enum Deed {
     RepeatsCounters,
     /// Sends nothing.
     FallsSilent,
+    /// The drive pushes with half its torque, whatever it is told.
+    DrivePushes,
+    /// The service brake gives next to nothing, whatever it is told.
+    BrakesFade,
+    /// The parking brake lets go by itself.
+    ParkingBrakeLetsGo,
 }
 
 /// A deed, its time, and the verdicts it must meet.
@@ -137,6 +143,8 @@ impl Deed {
                 wanted.auxiliaries = Auxiliaries { air_pump: false, power_steering: false, dc_dc: false };
             }
             Self::BreaksChecksums | Self::RepeatsCounters | Self::FallsSilent => {}
+            // What the vehicle does by itself changes no command.
+            Self::DrivePushes | Self::BrakesFade | Self::ParkingBrakeLetsGo => {}
         }
     }
 }

@@ -17,6 +17,7 @@ use supervisor::{
 };
 
 use crate::driver::{Driver, Script};
+use crate::misdeed::Deed;
 use crate::number::nearest;
 use crate::road::{Eyes, Obstacle};
 
@@ -75,6 +76,9 @@ pub struct Plant<'a> {
     current: Lag,
     steers: bool,
     automated: bool,
+    /// What fails in this cycle.
+    pushes: bool,
+    fades: bool,
 }
 
 impl<'a> Plant<'a> {
@@ -106,6 +110,17 @@ impl<'a> Plant<'a> {
             current: Lag::default(),
             steers: false,
             automated: false,
+            pushes: false,
+            fades: false,
+        }
+    }
+
+    /// The vehicle fails in the next cycle; what only the main controller does is nothing here.
+    pub fn suffer(&mut self, deed: Deed) {
+        self.pushes |= deed == Deed::DrivePushes;
+        self.fades |= deed == Deed::BrakesFade;
+        if deed == Deed::ParkingBrakeLetsGo {
+            self.epb.aim(EpbState::Released, self.parameters.parking_ms);
         }
     }
 
@@ -119,6 +134,7 @@ impl<'a> Plant<'a> {
             self.forget_behind();
             self.eyes.sample(self.now_ms, &self.road, self.position, self.speed, &self.parameters);
         }
+        (self.pushes, self.fades) = (false, false);
     }
 
     /// Who steps onto the road beside or behind the front of the bus is not ahead of it.
@@ -181,7 +197,9 @@ impl<'a> Plant<'a> {
             Gear::Reverse => -1.0,
             Gear::Neutral | Gear::Park => 0.0,
         };
-        let asked = if powered && direction != 0.0 { f64::from(outputs.drive.torque.raw()) / 100.0 } else { 0.0 };
+        let told = f64::from(outputs.drive.torque.raw()) / 100.0;
+        let given = if self.pushes { told.max(0.5) } else { told };
+        let asked = if powered && direction != 0.0 { given } else { 0.0 };
         let ceiling = p.full_power_w / (p.full_force_n * self.speed.abs().max(0.1));
         let drive_force = self.drive.follow(asked.min(ceiling), p.drive_lag_s) * p.full_force_n * direction;
 
@@ -217,6 +235,7 @@ impl<'a> Plant<'a> {
             BrakeMode::Addition => pedal + request,
             BrakeMode::Maximum => pedal.max(request),
         };
+        let demand = if self.fades { demand * 0.1 } else { demand };
         let share = (f64::from(outputs.brake.electric.raw()) / 2048.0).min(self.electric_limit()).min(demand);
         let electric = self.electric.follow(share, p.electric_lag_s);
         let delayed = self.dead.pass(demand);
