@@ -1,6 +1,7 @@
 //! Bare frames permit nothing (E2E-1f, CMD-7d): from frames through the receiver to the decision.
 //!
-//! In every scenario the gearbox also sends bare ETC2, as on the recorded bus: D selected, D engaged.
+//! In every scenario the gearbox also sends bare ETC2, as on the recorded bus: D selected, D engaged. Bare frames that
+//! lie come as the last ones of each cycle.
 
 mod common;
 use common::*;
@@ -16,13 +17,8 @@ const ALL: Spoil = |_| true;
 const NO_ACCELERATOR_2: Spoil = |frame| frame.id != Message::Accelerator2.id();
 const NO_EEC2: Spoil = |frame| frame.id != Message::Eec2.id();
 const NO_GEAR_STATUS: Spoil = |frame| frame.id != Message::GearStatus.id();
-/// EEC2 says: pressed to 20 %.
-const EEC2_PRESSED: Spoil = |frame| {
-    if frame.id == Message::Eec2.id() {
-        frame.data = [0xFD, travel(20).raw(), 0xFF, 0xFF, travel(20).raw(), 0xFF, 0xFF, 0xFF];
-    }
-    true
-};
+/// EEC2 says in both tracks of J1939: pressed to 20 %.
+const PRESSED: Frame = Frame { id: 0x0CF0_0300, length: 8, data: [0xFD, 50, 255, 255, 50, 255, 255, 255] };
 /// One bit of the protected track, or of the protected gear, is flipped.
 const ACCELERATOR_2_BROKEN: Spoil = |frame| {
     frame.data[2] ^= u8::from(frame.id == Message::Accelerator2.id());
@@ -41,6 +37,8 @@ struct Wired {
     sensors: Sender,
     receiver: Receiver,
     spoil: Spoil,
+    /// What EEC2 says at the end of each cycle, against its sensor.
+    lie: Option<Frame>,
 }
 
 impl Wired {
@@ -48,7 +46,7 @@ impl Wired {
     fn new(bus: Bus, spoil: Spoil) -> Self {
         let (sensors, receiver) = (Sender::new(), Receiver::new(&Config::DEFAULT));
         let (begin, truth) = (bus.now - 2_000, bus.inputs);
-        let mut wired = Self { bus, truth, sensors, receiver, spoil };
+        let mut wired = Self { bus, truth, sensors, receiver, spoil, lie: None };
         for since in (0..=2_000).step_by(10) {
             let _ = wired.read(begin + since);
         }
@@ -56,13 +54,16 @@ impl Wired {
     }
 
     fn read(&mut self, now: u32) -> Inputs {
-        let Self { truth, sensors, receiver, spoil, .. } = self;
+        let Self { truth, sensors, receiver, spoil, lie, .. } = self;
         sensors.encode_inputs(Millis::new(now), truth, &Scene::clear(), &mut |mut frame| {
             if spoil(&mut frame) {
                 // A broken frame shows in the sample.
                 let _ = receiver.accept(Millis::new(now), &frame);
             }
         });
+        if let Some(frame) = lie {
+            assert!(receiver.accept(Millis::new(now), frame).is_ok(), "what is bare has no wrong content");
+        }
         let etc2 = receiver.accept(Millis::new(now), &ETC2);
         assert_eq!(etc2, Err(Refusal { message: None, fault: Fault::Identifier }), "CMD-7d: ETC2 is no input");
         *receiver.sample(Millis::new(now)).inputs
@@ -106,10 +107,16 @@ fn one_track_of_the_accelerator_gives_no_torque() {
     assert_eq!(both.count(1_000, torque), 0);
     assert_eq!(both.bus.inputs.accelerator, [known(travel(20)), unknown(Cause::Stale)]);
 
-    for (per_cent, spoil) in
-        [(20, NO_ACCELERATOR_2), (20, NO_EEC2), (20, ACCELERATOR_2_BROKEN), (0, EEC2_PRESSED), (100, EEC2_PRESSED)]
-    {
+    for (per_cent, spoil, lie) in [
+        (20, NO_ACCELERATOR_2, None),
+        (20, NO_ACCELERATOR_2, Some(PRESSED)),
+        (20, NO_EEC2, None),
+        (20, ACCELERATOR_2_BROKEN, None),
+        (0, ALL, Some(PRESSED)),
+        (100, ALL, Some(PRESSED)),
+    ] {
         let mut wired = on_the_road(per_cent, spoil);
+        wired.lie = lie;
         assert_eq!(wired.count(2_000, torque), 0, "{:?}", wired.bus.inputs.accelerator);
         let decision = wired.step();
         assert_verdict(&decision, Channel::DriveTorque, Kind::Limit, Reason::AcceleratorUnknown);
@@ -164,15 +171,16 @@ fn bare_frames_release_no_parking_brake() {
     };
     assert!(pressed_anew(travel(20), ALL).count(1_000, released) > 0);
     assert_eq!(pressed_anew(travel(0), ALL).count(1_000, released), 0, "it takes the accelerator");
-    for (to, spoil) in [
-        (travel(20), NO_ACCELERATOR_2),
-        (travel(20), NO_EEC2),
-        (travel(20), ACCELERATOR_2_BROKEN),
-        (travel(0), EEC2_PRESSED),
-        (travel(20), NO_GEAR_STATUS),
-        (travel(20), GEAR_STATUS_BROKEN),
+    for (to, spoil, lie) in [
+        (travel(20), NO_ACCELERATOR_2, None),
+        (travel(20), NO_EEC2, None),
+        (travel(20), ACCELERATOR_2_BROKEN, None),
+        (travel(0), ALL, Some(PRESSED)),
+        (travel(20), NO_GEAR_STATUS, None),
+        (travel(20), GEAR_STATUS_BROKEN, None),
     ] {
         let mut wired = pressed_anew(to, spoil);
+        wired.lie = lie;
         assert_eq!(wired.count(1_000, released), 0, "{:?} {:?}", wired.bus.inputs.accelerator, wired.bus.inputs.gear);
         assert_verdict(&wired.step(), Channel::ParkingBrake, Kind::Block, Reason::ParkedByLeave);
     }

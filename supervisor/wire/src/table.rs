@@ -197,8 +197,8 @@ impl Message {
         matches!(self.destination(), Command(_))
     }
     /// E2E-1f, CMD-7d: whether it may give evidence of safety: it is protected, or the core takes it for evidence only
-    /// while a protected message agrees. The speed of CCVS1: with DriveStatus; the pedals of EEC2 and EBC1: with
-    /// Accelerator2 and BrakePedal2. Checked for every row when this is compiled.
+    /// while a protected message agrees. The speed of CCVS1: with `DriveStatus`; the pedals of EEC2 and EBC1: with
+    /// `Accelerator2` and `BrakePedal2`. Checked for every row when this is compiled.
     pub(crate) const fn gives_evidence(self) -> bool {
         !matches!(self.protection(), Protection::Bare) || matches!(self, Self::Ccvs1 | Self::Eec2 | Self::Ebc1)
     }
