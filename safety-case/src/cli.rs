@@ -34,8 +34,9 @@ Logs are candump's, in both layouts, plain or gzip:
   (0.022500) can0 0CF00300#FD00FFFFFFFFFFFF
   (0.022500)  can0  0CF00300   [8]  FD 00 FF FF FF FF FF FF
 
-Without --map, our own link and the standard J1939 frames CCVS1, EEC2, EBC1, ETC2 are decoded. A mapping says in \
-TOML which signal of which DBC is which input or command; safety-case/maps/ebus.toml is a worked example:
+Without --map, our own link and the standard J1939 frames CCVS1 and EBC1 are decoded. A mapping says in TOML which \
+signal of which DBC is which input or command, from whatever frame: that a bare one is evidence enough is then the \
+integrator's responsibility (E2E-1f). safety-case/maps/ebus.toml is a worked example:
   name = \"my bus\"
   dbc = \"my.dbc\"          # beside this file; --dbc goes before it
   ids = \"j1939\"           # compare the parameter group only; \"exact\" compares every bit

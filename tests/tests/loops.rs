@@ -37,7 +37,7 @@ const BOUNDS: &[(&str, &str)] = &[
     ("self.links.get(message.number())", "2 frames"),
     ("Message::RadarPosition", "2 frames"),
     ("Message::CameraObject", "3 frames"),
-    ("Entry::list(", "objects of a list: MAX_RADAR, MAX_CAMERA, and the empty one"),
+    ("in list(", "objects of a list: MAX_RADAR, MAX_CAMERA, and the empty one"),
     ("objects.", "objects of a list: MAX_RADAR, MAX_CAMERA"),
     ("ages.", "objects of a list: MAX_RADAR, MAX_CAMERA"),
     ("radar.", "MAX_RADAR"),

@@ -3,7 +3,7 @@
 //! Raw values that mean nothing decode to `None`: the world is closed. "Not available" is the greatest raw value of
 //! the field in our messages, and what J1939-71 says in those of J1939 (E2E-1i).
 
-use supervisor_core::{Cause, DecelMs2Q11, Gear, Millis, Origin, Percent, Signal, Word};
+use supervisor_core::{Cause, DecelMs2Q11, Millis, Origin, Percent, Signal, Word};
 
 /// A way to write values of type `T` into a field whose greatest raw value is `full`.
 pub(crate) trait Coding<T> {
@@ -75,24 +75,6 @@ coding! {
     /// E2E-1i: a J1939 switch of 2 bits: off, on, error, not available.
     [signal] SpnSwitch(Signal<bool>): |value, full| raw_signal(value, full),
         |raw, _| Some(word(raw).map_or(Signal::Unknown(Cause::NotAvailable), Signal::Known));
-    /// SPN 523, 524: 125 neutral, below reverse, above forward, 251 park. More gears than a bus has are out of range:
-    /// the recorded ECU sends 0, the 125th reverse gear, while it starts.
-    [signal] SpnGear(Signal<Gear>):
-        |value, full| match value {
-            Signal::Known(Gear::Reverse) => 124,
-            Signal::Known(Gear::Neutral) => 125,
-            Signal::Known(Gear::Drive) => 126,
-            Signal::Known(Gear::Park) => 251,
-            Signal::Unknown(_) => full,
-        },
-        |raw, _| Some(match raw {
-            121..=124 => Signal::Known(Gear::Reverse),
-            125 => Signal::Known(Gear::Neutral),
-            126..=141 => Signal::Known(Gear::Drive),
-            251 => Signal::Known(Gear::Park),
-            254..=255 => Signal::Unknown(Cause::NotAvailable),
-            _ => Signal::Unknown(Cause::OutOfRange),
-        });
     /// SPN 518 of a drive: torque 0 to 125 %; more is sent as 125 %, a negative one is refused.
     Torque(Percent): |value, _| raw(value).min(NO_TORQUE).saturating_add(NO_TORQUE),
         |raw, _| word(raw.checked_sub(NO_TORQUE).filter(|torque| *torque <= NO_TORQUE)?);

@@ -32,6 +32,9 @@
 //! At 500 kbit/s, frames of at most 160 bits: outputs and status take 12 % at rest, and 42 % when every output changes
 //! in every cycle; inputs with empty object lists 11 %, commands 11 %. Full object lists need a bus of their own.
 //!
+//! # Simulation
+//! The feature `simulate` adds what sends inputs and commands, for tests and simulators; no shipped build has it.
+//!
 //! Where to look: which frames exist? `table.rs`. Is this frame intact? `protection.rs`. In order? `link.rs`. Is its
 //! sender to be trusted yet? `qualifier.rs`.
 #![no_std]
@@ -58,6 +61,8 @@ mod qualifier;
 mod receiver;
 mod refusal;
 mod sender;
+#[cfg(feature = "simulate")]
+mod simulate;
 mod table;
 
 pub use frame::Frame;

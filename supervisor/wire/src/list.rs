@@ -56,16 +56,6 @@ impl<T: Object> Entry<T> {
     pub(crate) const NONE: Self =
         Self { cycle: Count::ZERO, index: Count::ZERO, length: Signal::NEVER, object: T::NONE };
 
-    /// The entries of a whole list, at least one.
-    pub(crate) fn list(cycle: Count, known: bool, objects: &[T]) -> impl Iterator<Item = Self> {
-        let objects = if known { objects } else { &[] };
-        let count = u8::try_from(objects.len()).unwrap_or(u8::MAX);
-        let length = if known { Signal::Known(Count::new(count)) } else { Signal::NEVER };
-        (0..count.max(1)).map(move |index| {
-            let object = objects.get(usize::from(index)).copied().unwrap_or(T::NONE);
-            Self { cycle, index: Count::new(index), length, object }
-        })
-    }
     /// Whether the list is not longer than `longest`, the index lies in it, and an empty list has no object.
     pub(crate) fn fits(&self, longest: usize) -> bool {
         let length = self.length.known().unwrap_or(Count::ZERO);

@@ -134,6 +134,8 @@ macro_rules! messages {
             signals: &'static [SignalLayout];
             $($message => &[$(SignalLayout { name: stringify!($signal), start: $start, width: $width },)*],)* }
 
+        $(const _: () = assert!(Message::$message.gives_evidence(), "bare, and nothing protected agrees with it");)*
+
         impl Message {
             /// Every message, in the order of the table.
             pub const ALL: &'static [Self] = &[$(Self::$message,)*];

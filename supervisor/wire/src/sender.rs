@@ -1,10 +1,10 @@
-//! From inputs, commands and outputs to frames.
+//! From outputs and status to frames. What sends inputs and commands is in `simulate.rs`.
 
-use supervisor_core::{Channel, Commands, Count, Inputs, Millis, Outputs, Status};
-use supervisor_perceive::Scene;
+#[cfg(feature = "simulate")]
+use supervisor_core::Count;
+use supervisor_core::{Channel, Commands, Millis, Outputs, Status};
 
 use crate::frame::Frame;
-use crate::list::Entry;
 use crate::message::{Destination, Source, Values};
 use crate::qualifier::{FOREVER, elapsed};
 use crate::table::Message;
@@ -37,8 +37,9 @@ struct Slot {
 #[derive(Clone, Debug)]
 pub struct Sender {
     slots: [Slot; Message::COUNT],
-    radar_cycle: Count,
-    camera_cycle: Count,
+    /// Cycles of the next object lists, of radar and camera.
+    #[cfg(feature = "simulate")]
+    pub(crate) cycles: [Count; 2],
 }
 
 impl Default for Sender {
@@ -55,46 +56,16 @@ macro_rules! gather {
     )};
 }
 
-/// The cycle of the next list: 2 bits.
-fn next(cycle: Count) -> Count {
-    Count::new(cycle.raw().wrapping_add(1) & 3)
-}
-
 impl Sender {
     /// Nothing sent yet.
     #[must_use]
     pub const fn new() -> Self {
         let slot = Slot { due: Millis::ZERO, sent: [None; 2] };
-        Self { slots: [slot; Message::COUNT], radar_cycle: Count::ZERO, camera_cycle: Count::ZERO }
-    }
-
-    /// Sends the inputs and object lists that are due, as their sensors. What is unknown is sent as "not available".
-    pub fn encode_inputs(&mut self, now: Millis, inputs: &Inputs, scene: &Scene, emit: &mut impl FnMut(Frame)) {
-        let mut values = Values { inputs: *inputs, ..Values::NONE };
-        self.send_due(now, Destination::Input, &values, emit);
-        if self.due(now, Message::RadarPosition) {
-            for entry in Entry::list(self.radar_cycle, scene.radar_known, &scene.radar) {
-                values.radar = entry;
-                for part in [Message::RadarPosition, Message::RadarMotion] {
-                    self.send(now, part, part.id(), &values, emit);
-                }
-            }
-            self.radar_cycle = next(self.radar_cycle);
+        Self {
+            slots: [slot; Message::COUNT],
+            #[cfg(feature = "simulate")]
+            cycles: [Count::ZERO; 2],
         }
-        if self.due(now, Message::CameraObject) {
-            for entry in Entry::list(self.camera_cycle, scene.camera_known, &scene.camera) {
-                values.camera = entry;
-                for part in [Message::CameraObject, Message::CameraCorner, Message::CameraSize] {
-                    self.send(now, part, part.id(), &values, emit);
-                }
-            }
-            self.camera_cycle = next(self.camera_cycle);
-        }
-    }
-
-    /// Sends the commands that are due or have changed, as the main controller.
-    pub fn encode_commands(&mut self, now: Millis, commands: &Commands, emit: &mut impl FnMut(Frame)) {
-        self.encode(now, Source::MainController, commands, emit);
     }
 
     /// Sends the outputs that are due or have changed, as the supervisor (CMD-3d, SELF-8a).
@@ -109,7 +80,7 @@ impl Sender {
     }
 
     /// Messages of one sender that are due.
-    fn send_due(&mut self, now: Millis, to: Destination, values: &Values, emit: &mut impl FnMut(Frame)) {
+    pub(crate) fn send_due(&mut self, now: Millis, to: Destination, values: &Values, emit: &mut impl FnMut(Frame)) {
         for message in Message::ALL.iter().copied().filter(|message| message.destination() == to) {
             if self.due(now, message) {
                 self.send(now, message, message.id(), values, emit);
@@ -134,7 +105,7 @@ impl Sender {
     }
 
     /// All frames of a channel go together.
-    fn encode(&mut self, now: Millis, source: Source, commands: &Commands, emit: &mut impl FnMut(Frame)) {
+    pub(crate) fn encode(&mut self, now: Millis, source: Source, commands: &Commands, emit: &mut impl FnMut(Frame)) {
         let (outputs, present) = gather!(commands; drive: DriveTorque, target_speed: TargetSpeed, brake: ServiceBrake,
             retarder: Retarder, gear: Gear, epb: ParkingBrake, steering: Steering, contactors: Contactors,
             auxiliaries: Auxiliaries, warnings: Warnings, body: Body, mode: Mode);
@@ -147,7 +118,7 @@ impl Sender {
         }
     }
 
-    fn due(&self, now: Millis, message: Message) -> bool {
+    pub(crate) fn due(&self, now: Millis, message: Message) -> bool {
         let slot = self.slots.get(message.number());
         slot.is_some_and(|slot| slot.sent[0].is_none() || elapsed(now, slot.due) >= message.period())
     }
@@ -158,7 +129,14 @@ impl Sender {
     }
 
     /// CMD-3d, e: under our counter and check field.
-    fn send(&mut self, now: Millis, message: Message, id: u32, values: &Values, emit: &mut impl FnMut(Frame)) {
+    pub(crate) fn send(
+        &mut self,
+        now: Millis,
+        message: Message,
+        id: u32,
+        values: &Values,
+        emit: &mut impl FnMut(Frame),
+    ) {
         let Some(slot) = self.slots.get_mut(message.number()) else { return };
         let period = message.period();
         // The period runs on from when the frame was due, not from when it was sent: no drift. It begins anew after

@@ -7,8 +7,8 @@ use supervisor_core::{Cause, Channel, Millis};
 use supervisor_perceive::{MAX_CAMERA, MAX_RADAR};
 
 use crate::coding::{
-    Age, BrakingTorque, Coding, Deceleration, Measured, MeasuredSigned, Pixels, Plain, Purpose, Spn, SpnGear,
-    SpnSwitch, Torque, TorqueControl,
+    Age, BrakingTorque, Coding, Deceleration, Measured, MeasuredSigned, Pixels, Plain, Purpose, Spn, SpnSwitch, Torque,
+    TorqueControl,
 };
 use crate::frame::{full, insert};
 use crate::list::Entry;
@@ -23,20 +23,22 @@ messages! {
     // Bare J1939 inputs, source addresses as on the recorded bus.
     /// Cruise control / vehicle speed.
     0 Ccvs1("CCVS1", 0x18FE_F100, 100, Ms100, Input, Bare) { WheelBasedVehicleSpeed: Spn(8, 16) = inputs.wheel_speed; }
-    /// Electronic engine controller 2: both tracks of the accelerator.
-    1 Eec2("EEC2", 0x0CF0_0300, 50, Ms50, Input, Bare) {
-        AccelPedalPosition1: Spn(8, 8) = inputs.accelerator[0];
-        AccelPedalPosition2: Spn(32, 8) = inputs.accelerator[1]; }
     /// Electronic brake controller 1.
-    2 Ebc1("EBC1", 0x18F0_010B, 100, Ms100, Input, Bare) {
+    1 Ebc1("EBC1", 0x18F0_010B, 100, Ms100, Input, Bare) {
         ASRBrakeControlActive: SpnSwitch(2, 2) = inputs.asr; ABSActive: SpnSwitch(4, 2) = inputs.abs;
         EBSBrakeSwitch: SpnSwitch(6, 2) = inputs.brake_switch; BrakePedalPosition: Spn(8, 8) = inputs.brake_pedal[0];
         EBSRedWarning: SpnSwitch(42, 2) = inputs.ebs_red; ABSEBSAmberWarning: SpnSwitch(44, 2) = inputs.ebs_amber; }
-    /// Electronic transmission controller 2.
-    3 Etc2("ETC2", 0x18F0_0503, 100, Ms100, Input, Bare) {
-        SelectedGear: SpnGear(0, 8) = inputs.selector; CurrentGear: SpnGear(24, 8) = inputs.gear; }
 
     // Protected inputs.
+    /// Both tracks of the accelerator, of one moment (E2E-1f, CMD-7d). In two messages a pedal on its way would disagree
+    /// with itself. EEC2 says the same without protection: it is not read.
+    2 Accelerator("Accelerator", 0x0CFF_3300, 50, Ms50, Input, Profile11) {
+        AccelPedalPosition1: Measured(16, 8) = inputs.accelerator[0];
+        AccelPedalPosition2: Measured(24, 8) = inputs.accelerator[1]; }
+    /// Gearbox: what the driver selects, what is engaged (E2E-1f, CMD-7d). ETC2 says the same without protection: it is
+    /// not read.
+    3 GearStatus("GearStatus", 0x18FF_3203, 100, Ms100, Input, Profile11) {
+        SelectedGear: Measured(12, 3) = inputs.selector; CurrentGear: Measured(16, 3) = inputs.gear; }
     /// First seat sensor.
     4 Seat1("Seat1", 0x0CFF_1021, 50, Ms50, Input, Profile11) { SeatSensor1: Measured(16, 2) = inputs.seat[0]; }
     /// Second seat sensor, by another ECU.
@@ -193,6 +195,12 @@ impl Message {
     #[must_use]
     pub const fn is_command(self) -> bool {
         matches!(self.destination(), Command(_))
+    }
+    /// E2E-1f, CMD-7d: whether it may give evidence of safety: it is protected, or the core takes it for evidence only
+    /// while a protected message agrees. The speed of CCVS1: with `DriveStatus`; the pedal of EBC1: with `BrakePedal2`.
+    /// Checked for every row when this is compiled.
+    pub(crate) const fn gives_evidence(self) -> bool {
+        !matches!(self.protection(), Protection::Bare) || matches!(self, Self::Ccvs1 | Self::Ebc1)
     }
     /// The identifier from this source, if it is a command; an input has one sender only.
     #[must_use]

@@ -87,10 +87,6 @@ fn expected(
     let (i, o) = (inputs, outputs);
     match message {
         Message::Ccvs1 => vec![("WheelBasedVehicleSpeed", signal(i.wheel_speed, |v| number(v.raw(), Q8)))],
-        Message::Eec2 => vec![
-            ("AccelPedalPosition1", signal(i.accelerator[0], |v| number(v.raw(), 0.4))),
-            ("AccelPedalPosition2", signal(i.accelerator[1], |v| number(v.raw(), 0.4))),
-        ],
         Message::Ebc1 => vec![
             ("ASRBrakeControlActive", switch(i.asr)),
             ("ABSActive", switch(i.abs)),
@@ -99,9 +95,15 @@ fn expected(
             ("EBSRedWarning", switch(i.ebs_red)),
             ("ABSEBSAmberWarning", switch(i.ebs_amber)),
         ],
-        Message::Etc2 => vec![("SelectedGear", signal(i.selector, label)), ("CurrentGear", signal(i.gear, label))],
+        Message::GearStatus => {
+            vec![("SelectedGear", signal(i.selector, label)), ("CurrentGear", signal(i.gear, label))]
+        }
         Message::Seat1 => vec![("SeatSensor1", signal(i.seat[0], label))],
         Message::Seat2 => vec![("SeatSensor2", signal(i.seat[1], label))],
+        Message::Accelerator => vec![
+            ("AccelPedalPosition1", signal(i.accelerator[0], |v| number(v.raw(), 0.4))),
+            ("AccelPedalPosition2", signal(i.accelerator[1], |v| number(v.raw(), 0.4))),
+        ],
         Message::BrakePedal2 => vec![("BrakePedalPosition2", signal(i.brake_pedal[1], |v| number(v.raw(), 0.4)))],
         Message::DriveStatus => vec![
             ("DriveStopped", yes(i.drive_stopped)),
