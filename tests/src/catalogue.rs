@@ -97,7 +97,7 @@ const ACTUATORS: &[Misdeed] = &[
         "the service brake gives a tenth of what it is told, the seat is empty",
         &[(Channel::Retarder, Reason::BrakeResponse), (Channel::ParkingBrake, Reason::BrakeResponse)],
     ),
-    misdeed(75_000, 75_100, Deed::ParkingBrakeLetsGo, "the parking brake lets go by itself, the seat is empty", &[]),
+    misdeed(75_000, 75_100, Deed::K4DropsOut, "the parking brake lets go by itself, the seat is empty", &[]),
 ];
 
 /// Every channel, refused for a frame that does not come or does not pass its check.
@@ -345,7 +345,7 @@ pub const ALL: &[Scenario<'static>] = &[
         title: "Actuators that do not obey",
         description: "The main controller is correct, the vehicle fails. The drive goes on pushing: torque 0, then the \
             service brake against it. The driver gets up at 40 km/h and the service brake gives next to nothing: the \
-            retarder helps, then the parking brake. Parked, the parking brake lets go: it is applied again. Each is a \
+            retarder helps, then the parking brake. At last K4 drops out by itself: nothing closes again. Each is a \
             trouble code.",
         length_ms: 90_000,
         script: FAULTY,

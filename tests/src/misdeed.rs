@@ -47,8 +47,8 @@ pub enum Deed {
     DrivePushes,
     /// The service brake gives next to nothing, whatever it is told.
     BrakesFade,
-    /// The parking brake lets go by itself.
-    ParkingBrakeLetsGo,
+    /// K4 drops out by itself.
+    K4DropsOut,
 }
 
 /// A deed, its time, and the verdicts it must meet.
@@ -144,7 +144,7 @@ impl Deed {
             }
             Self::BreaksChecksums | Self::RepeatsCounters | Self::FallsSilent => {}
             // What the vehicle does by itself changes no command.
-            Self::DrivePushes | Self::BrakesFade | Self::ParkingBrakeLetsGo => {}
+            Self::DrivePushes | Self::BrakesFade | Self::K4DropsOut => {}
         }
     }
 }

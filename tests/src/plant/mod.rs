@@ -119,8 +119,8 @@ impl<'a> Plant<'a> {
     pub fn suffer(&mut self, deed: Deed) {
         self.pushes |= deed == Deed::DrivePushes;
         self.fades |= deed == Deed::BrakesFade;
-        if deed == Deed::ParkingBrakeLetsGo {
-            self.epb.aim(EpbState::Released, self.parameters.parking_ms);
+        if deed == Deed::K4DropsOut {
+            self.k4.aim(false, self.parameters.contactor_open_ms);
         }
     }
 
