@@ -37,6 +37,7 @@ const BOUNDS: &[(&str, &str)] = &[
     ("self.links.get(message.number())", "2 frames"),
     ("Message::RadarPosition", "2 frames"),
     ("Message::SupervisorStatus", "2 frames"),
+    ("slot.sent.iter_mut()", "2 frames sent"),
     ("Message::CameraObject", "3 frames"),
     ("in list(", "objects of a list: MAX_RADAR, MAX_CAMERA, and the empty one"),
     ("objects.", "objects of a list: MAX_RADAR, MAX_CAMERA"),
