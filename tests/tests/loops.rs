@@ -36,6 +36,8 @@ const BOUNDS: &[(&str, &str)] = &[
     ("Message::SteeringAngle", "2 frames"),
     ("self.links.get(message.number())", "2 frames"),
     ("Message::RadarPosition", "2 frames"),
+    ("Message::SupervisorStatus", "2 frames"),
+    ("slot.sent.iter_mut()", "2 frames sent"),
     ("Message::CameraObject", "3 frames"),
     ("in list(", "objects of a list: MAX_RADAR, MAX_CAMERA, and the empty one"),
     ("objects.", "objects of a list: MAX_RADAR, MAX_CAMERA"),

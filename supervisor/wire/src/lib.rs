@@ -61,8 +61,6 @@ mod qualifier;
 mod receiver;
 mod refusal;
 mod sender;
-#[cfg(feature = "simulate")]
-mod simulate;
 mod table;
 
 pub use frame::Frame;

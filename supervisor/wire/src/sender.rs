@@ -1,12 +1,15 @@
 //! From outputs and status to frames. What sends inputs and commands is in `simulate.rs`.
 
 #[cfg(feature = "simulate")]
+mod simulate;
+
+#[cfg(feature = "simulate")]
 use supervisor_core::Count;
-use supervisor_core::{Channel, Commands, Millis, Outputs, Status};
+use supervisor_core::{Channel, Millis, Outputs, Status};
 
 use crate::frame::Frame;
 use crate::message::{Destination, Source, Values};
-use crate::qualifier::{FOREVER, elapsed};
+use crate::qualifier::elapsed;
 use crate::table::Message;
 
 /// SELF-10b: how long after it was sent a frame may come back: two cycles. A controller that hands back its own frames
@@ -39,21 +42,13 @@ pub struct Sender {
     slots: [Slot; Message::COUNT],
     /// Cycles of the next object lists, of radar and camera.
     #[cfg(feature = "simulate")]
-    pub(crate) cycles: [Count; 2],
+    cycles: [Count; 2],
 }
 
 impl Default for Sender {
     fn default() -> Self {
         Self::new()
     }
-}
-
-/// The values of the commands, and which channels have one: refused and absent ones are not sent.
-macro_rules! gather {
-    ($commands:ident; $($field:ident: $channel:ident),*) => {(
-        Outputs { $($field: $commands.$field.usable(FOREVER).unwrap_or(Outputs::NEUTRAL.$field),)* },
-        |channel: &Channel| match channel { $(Channel::$channel => $commands.$field.usable(FOREVER).is_ok(),)* },
-    )};
 }
 
 impl Sender {
@@ -70,7 +65,7 @@ impl Sender {
 
     /// Sends the outputs that are due or have changed, as the supervisor (CMD-3d, SELF-8a).
     pub fn encode_outputs(&mut self, now: Millis, outputs: &Outputs, emit: &mut impl FnMut(Frame)) {
-        self.encode(now, Source::Supervisor, &outputs.as_commands(), emit);
+        self.encode(now, Source::Supervisor, outputs, |_| true, emit);
     }
 
     /// Sends what the supervisor says of itself, when it is due (SELF-8a, RPT-1b). `now` goes along as time stamp.
@@ -80,7 +75,7 @@ impl Sender {
     }
 
     /// Messages of one sender that are due.
-    pub(crate) fn send_due(&mut self, now: Millis, to: Destination, values: &Values, emit: &mut impl FnMut(Frame)) {
+    fn send_due(&mut self, now: Millis, to: Destination, values: &Values, emit: &mut impl FnMut(Frame)) {
         for message in Message::ALL.iter().copied().filter(|message| message.destination() == to) {
             if self.due(now, message) {
                 self.send(now, message, message.id(), values, emit);
@@ -104,12 +99,16 @@ impl Sender {
         sent.map(|sent| sent.echoed = true).is_some()
     }
 
-    /// All frames of a channel go together.
-    pub(crate) fn encode(&mut self, now: Millis, source: Source, commands: &Commands, emit: &mut impl FnMut(Frame)) {
-        let (outputs, present) = gather!(commands; drive: DriveTorque, target_speed: TargetSpeed, brake: ServiceBrake,
-            retarder: Retarder, gear: Gear, epb: ParkingBrake, steering: Steering, contactors: Contactors,
-            auxiliaries: Auxiliaries, warnings: Warnings, body: Body, mode: Mode);
-        let values = Values { outputs, ..Values::NONE };
+    /// The channels that are `present`; all frames of a channel go together.
+    fn encode(
+        &mut self,
+        now: Millis,
+        source: Source,
+        outputs: &Outputs,
+        present: impl Fn(&Channel) -> bool,
+        emit: &mut impl FnMut(Frame),
+    ) {
+        let values = Values { outputs: *outputs, ..Values::NONE };
         for channel in Channel::ALL.iter().copied().filter(present) {
             let messages = Message::ALL.iter().filter(|message| message.destination() == Destination::Command(channel));
             if messages.clone().any(|message| self.due(now, *message) || self.changed(*message, &values)) {
@@ -118,7 +117,7 @@ impl Sender {
         }
     }
 
-    pub(crate) fn due(&self, now: Millis, message: Message) -> bool {
+    fn due(&self, now: Millis, message: Message) -> bool {
         let slot = self.slots.get(message.number());
         slot.is_some_and(|slot| slot.sent[0].is_none() || elapsed(now, slot.due) >= message.period())
     }
@@ -129,14 +128,7 @@ impl Sender {
     }
 
     /// CMD-3d, e: under our counter and check field.
-    pub(crate) fn send(
-        &mut self,
-        now: Millis,
-        message: Message,
-        id: u32,
-        values: &Values,
-        emit: &mut impl FnMut(Frame),
-    ) {
+    fn send(&mut self, now: Millis, message: Message, id: u32, values: &Values, emit: &mut impl FnMut(Frame)) {
         let Some(slot) = self.slots.get_mut(message.number()) else { return };
         let period = message.period();
         // The period runs on from when the frame was due, not from when it was sent: no drift. It begins anew after

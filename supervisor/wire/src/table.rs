@@ -196,9 +196,9 @@ impl Message {
     pub const fn is_command(self) -> bool {
         matches!(self.destination(), Command(_))
     }
-    /// E2E-1f, CMD-7d: whether it may give evidence of safety: it is protected, or the core takes it for evidence only
-    /// while a protected message agrees. The speed of CCVS1: with `DriveStatus`; the pedal of EBC1: with `BrakePedal2`.
-    /// Checked for every row when this is compiled.
+    /// E2E-1a, E2E-1f, CMD-7d: whether it may give evidence of safety. It is protected; or it is bare, and the core takes
+    /// it for evidence only while a protected message agrees: the speed of CCVS1 with `DriveStatus`, the pedal of EBC1
+    /// with `BrakePedal2`. Checked for every row when this is compiled.
     pub(crate) const fn gives_evidence(self) -> bool {
         !matches!(self.protection(), Protection::Bare) || matches!(self, Self::Ccvs1 | Self::Ebc1)
     }

@@ -2,13 +2,14 @@
 //!
 //! Behind the feature `simulate`: not in the supervisor that is shipped, which sends outputs and status alone.
 
-use supervisor_core::{Commands, Count, Inputs, Millis, Signal};
+use supervisor_core::{Channel, Commands, Count, Inputs, Millis, Outputs, Signal};
 use supervisor_perceive::Scene;
 
+use super::Sender;
 use crate::frame::Frame;
 use crate::list::{Entry, Object};
 use crate::message::{Destination, Source, Values};
-use crate::sender::Sender;
+use crate::qualifier::FOREVER;
 use crate::table::Message;
 
 /// The entries of a whole list, at least one.
@@ -25,6 +26,14 @@ fn list<T: Object>(cycle: Count, known: bool, objects: &[T]) -> impl Iterator<It
 /// The cycle of the next list: 2 bits.
 fn next(cycle: Count) -> Count {
     Count::new(cycle.raw().wrapping_add(1) & 3)
+}
+
+/// The values of the commands, and which channels have one: refused and absent ones are not sent.
+macro_rules! gather {
+    ($commands:ident; $($field:ident: $channel:ident),*) => {(
+        Outputs { $($field: $commands.$field.usable(FOREVER).unwrap_or(Outputs::NEUTRAL.$field),)* },
+        |channel: &Channel| match channel { $(Channel::$channel => $commands.$field.usable(FOREVER).is_ok(),)* },
+    )};
 }
 
 impl Sender {
@@ -54,6 +63,9 @@ impl Sender {
 
     /// Sends the commands that are due or have changed, as the main controller.
     pub fn encode_commands(&mut self, now: Millis, commands: &Commands, emit: &mut impl FnMut(Frame)) {
-        self.encode(now, Source::MainController, commands, emit);
+        let (outputs, present) = gather!(commands; drive: DriveTorque, target_speed: TargetSpeed, brake: ServiceBrake,
+            retarder: Retarder, gear: Gear, epb: ParkingBrake, steering: Steering, contactors: Contactors,
+            auxiliaries: Auxiliaries, warnings: Warnings, body: Body, mode: Mode);
+        self.encode(now, Source::MainController, &outputs, present, emit);
     }
 }
