@@ -88,7 +88,7 @@ const ACTUATORS: &[Misdeed] = &[
         29_500,
         Deed::DrivePushes,
         "the drive pushes with half its torque, the accelerator is released",
-        &[(Channel::DriveTorque, Reason::ExcessTorque), (Channel::ServiceBrake, Reason::ExcessTorque)],
+        &[(Channel::ServiceBrake, Reason::ExcessTorque)],
     ),
     misdeed(
         46_000,

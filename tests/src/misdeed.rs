@@ -89,6 +89,12 @@ impl Deed {
         matches!(self, Self::BreaksChecksums | Self::RepeatsCounters | Self::FallsSilent)
     }
 
+    /// Whether it is the vehicle that fails, not the main controller that misbehaves.
+    #[must_use]
+    pub const fn of_the_vehicle(self) -> bool {
+        matches!(self, Self::DrivePushes | Self::BrakesFade | Self::K4DropsOut)
+    }
+
     /// What it makes of the commands; nothing where it tampers with frames.
     pub const fn corrupt(self, wanted: &mut Outputs) {
         match self {

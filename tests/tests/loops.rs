@@ -42,6 +42,8 @@ const BOUNDS: &[(&str, &str)] = &[
     ("in list(", "objects of a list: MAX_RADAR, MAX_CAMERA, and the empty one"),
     ("objects.", "objects of a list: MAX_RADAR, MAX_CAMERA"),
     ("ages.", "objects of a list: MAX_RADAR, MAX_CAMERA"),
+    ("in [false, true]", "2 classes"),
+    ("in camera", "MAX_CAMERA"),
     ("radar.", "MAX_RADAR"),
     ("camera.", "MAX_CAMERA"),
     (".fold(Assessment::NOTHING", "MAX_RADAR + MAX_CAMERA"),

@@ -14,6 +14,7 @@ use super::{CostError, has};
 /// The shipped packages, in the order in which they build on each other.
 const PACKAGES: [&str; 6] = [
     "supervisor-terms",
+    "supervisor-observe",
     "supervisor-core",
     "supervisor-perceive",
     "supervisor-wire",
