@@ -12,7 +12,7 @@ use super::tool::{Tools, output};
 use super::{CostError, has};
 
 /// The shipped packages, in the order in which they build on each other.
-const PACKAGES: [&str; 6] = [
+const PACKAGES: [&str; 7] = [
     "supervisor-terms",
     "supervisor-observe",
     "supervisor-core",
