@@ -148,9 +148,13 @@ impl Deed {
             Self::SwitchesAuxiliariesOff => {
                 wanted.auxiliaries = Auxiliaries { air_pump: false, power_steering: false, dc_dc: false };
             }
-            Self::BreaksChecksums | Self::RepeatsCounters | Self::FallsSilent => {}
-            // What the vehicle does by itself changes no command.
-            Self::DrivePushes | Self::BrakesFade | Self::K4DropsOut => {}
+            // What tampers with frames, or the vehicle does by itself, changes no value.
+            Self::BreaksChecksums
+            | Self::RepeatsCounters
+            | Self::FallsSilent
+            | Self::DrivePushes
+            | Self::BrakesFade
+            | Self::K4DropsOut => {}
         }
     }
 }
