@@ -184,3 +184,29 @@ fn bare_frames_release_no_parking_brake() {
     wired.truth.accelerator = [known(travel(20)); 2];
     assert_eq!(wired.count(1_000, released), 0);
 }
+
+/// EBC1: brake switch on, pedal to the floor, neither ABS nor ASR at work.
+const EBC1: Frame = Frame { id: 0x18F0_010B, length: 8, data: [0x40, 250, 255, 255, 255, 0, 255, 255] };
+const NO_BRAKE_PEDAL: Spoil = |frame| frame.id != Message::BrakePedal1.id() && frame.id != Message::BrakePedal2.id();
+
+/// E2E-1f, CMD-7d: a brake pedal pressed in EBC1 raises no cap; pressed in the protected frames it does.
+#[test]
+fn a_bare_brake_pedal_raises_no_cap() {
+    let beyond = |decision: &Decision| decision.outputs.brake.total > Config::DEFAULT.comfort_cap;
+    let braking = |spoil: Spoil, pedal: Pedal250| {
+        let mut bus = Bus::driving(kmh(40));
+        bus.brake_pedal(pedal);
+        bus.ask_brake(ms2(600));
+        Wired::new(bus, spoil)
+    };
+    let mut bare = braking(NO_BRAKE_PEDAL, travel(100));
+    for _ in 0..100 {
+        let now = Millis::new(bare.bus.now + CYCLE);
+        assert!(bare.receiver.accept(now, &EBC1).is_ok(), "EBC1 is read, its pedal is not");
+        assert!(!beyond(&bare.step()));
+    }
+    let Inputs { brake_switch, brake_pedal, .. } = bare.bus.inputs;
+    assert!(brake_switch.known().is_none() && brake_pedal.iter().all(|track| track.known().is_none()));
+    assert!(braking(ALL, travel(100)).count(1_000, beyond) > 90, "known, pressed");
+    assert_eq!(braking(ALL, travel(0)).count(1_000, beyond), 0, "known, released");
+}

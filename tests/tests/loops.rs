@@ -43,6 +43,10 @@ const BOUNDS: &[(&str, &str)] = &[
     ("objects.", "objects of a list: MAX_RADAR, MAX_CAMERA"),
     ("ages.", "objects of a list: MAX_RADAR, MAX_CAMERA"),
     ("in [false, true]", "2 classes"),
+    ("in [(Class::", "2 classes"),
+    ("self.position(", "no loop: where a point lies"),
+    ("sizes.iter()", "2 classes"),
+    ("in seen", "MAX_CAMERA"),
     ("in camera", "MAX_CAMERA"),
     ("radar.", "MAX_RADAR"),
     ("camera.", "MAX_CAMERA"),
@@ -50,6 +54,12 @@ const BOUNDS: &[(&str, &str)] = &[
     ("Channel::ALL", "channels: 12"),
     ("verdicts.iter()", "channels: 12"),
     ("self.events.iter()", "length of the record: its type"),
+    ("self.grave.iter()", "length of the record: its type"),
+    ("self.values.iter()", "length of the ring: its type"),
+    ("in troubles", "trouble codes: TROUBLE_CODES"),
+    ("self.entries.iter", "trouble codes: TROUBLE_CODES"),
+    ("self.active()", "trouble codes: TROUBLE_CODES"),
+    ("from_fn(|at|", "8 bytes"),
     ("Faults::NAMES", "faults: at most 32"),
     ("TABLE.iter()", "groups of inputs: the table"),
     ("words.", "words of the state or of the configuration: Words::COUNT"),
@@ -110,17 +120,19 @@ fn every_loop_of_the_shipped_crates_has_a_constant_bound() {
     sources(&root, &mut files);
     files.retain(|path| path.components().any(|part| part.as_os_str() == "src"));
     files.sort();
-    let mut count = 0;
+    let (mut count, mut unknown) = (0, Vec::new());
     for path in files {
         let Ok(text) = fs::read_to_string(&path) else { unreachable!("{} is a text", path.display()) };
         let name = path.strip_prefix(&root).unwrap_or(&path).display();
         for line in loops(&text) {
-            let bound = bound(line);
-            assert!(bound.is_some(), "{name}: no bound is known for:\n{line}");
-            println!("{name}: {} | {line}", bound.unwrap_or(""));
+            match bound(line) {
+                Some(bound) => println!("{name}: {bound} | {line}"),
+                None => unknown.push(format!("{name}: {line}")),
+            }
             count += 1;
         }
     }
+    assert!(unknown.is_empty(), "no bound is known for:\n{}", unknown.join("\n"));
     assert!(count > 30, "the sources were found: {count}");
 }
 

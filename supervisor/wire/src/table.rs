@@ -23,10 +23,9 @@ messages! {
     // Bare J1939 inputs, source addresses as on the recorded bus.
     /// Cruise control / vehicle speed.
     0 Ccvs1("CCVS1", 0x18FE_F100, 100, Ms100, Input, Bare) { WheelBasedVehicleSpeed: Spn(8, 16) = inputs.wheel_speed; }
-    /// Electronic brake controller 1.
+    /// Electronic brake controller 1. Its pedal and switch are bare: they are not read (E2E-1f).
     1 Ebc1("EBC1", 0x18F0_010B, 100, Ms100, Input, Bare) {
         ASRBrakeControlActive: SpnSwitch(2, 2) = inputs.asr; ABSActive: SpnSwitch(4, 2) = inputs.abs;
-        EBSBrakeSwitch: SpnSwitch(6, 2) = inputs.brake_switch; BrakePedalPosition: Spn(8, 8) = inputs.brake_pedal[0];
         EBSRedWarning: SpnSwitch(42, 2) = inputs.ebs_red; ABSEBSAmberWarning: SpnSwitch(44, 2) = inputs.ebs_amber; }
 
     // Protected inputs.
@@ -185,6 +184,10 @@ messages! {
     /// Faults and hints, one bit each; and how long it has been parked by leave.
     36 SupervisorFaults("SupervisorFaults", 0x18FF_2D80, 100, Ms100, Status, Profile11) {
         Faults: Plain(12, 32) = status.faults; ParkedFor: Age(44, 20) = status.parked_for; }
+    /// First track of the brake pedal and its switch (E2E-1f, CMD-7d).
+    37 BrakePedal1("BrakePedal1", 0x0CFF_340B, 50, Ms50, Input, Profile11) {
+        EBSBrakeSwitch: Measured(12, 2) = inputs.brake_switch;
+        BrakePedalPosition1: Measured(16, 8) = inputs.brake_pedal[0]; }
 }
 
 impl Message {
@@ -197,8 +200,8 @@ impl Message {
         matches!(self.destination(), Command(_))
     }
     /// E2E-1a, E2E-1f, CMD-7d: whether it may give evidence of safety. It is protected; or it is bare, and the core takes
-    /// it for evidence only while a protected message agrees: the speed of CCVS1 with `DriveStatus`, the pedal of EBC1
-    /// with `BrakePedal2`. Checked for every row when this is compiled.
+    /// it for evidence only while a protected message agrees: the speed of CCVS1 with `DriveStatus`; slip control and
+    /// warnings of EBC1 permit nothing alone. Checked for every row when this is compiled.
     pub(crate) const fn gives_evidence(self) -> bool {
         !matches!(self.protection(), Protection::Bare) || matches!(self, Self::Ccvs1 | Self::Ebc1)
     }

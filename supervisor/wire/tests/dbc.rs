@@ -90,8 +90,6 @@ fn expected(
         Message::Ebc1 => vec![
             ("ASRBrakeControlActive", switch(i.asr)),
             ("ABSActive", switch(i.abs)),
-            ("EBSBrakeSwitch", switch(i.brake_switch)),
-            ("BrakePedalPosition", signal(i.brake_pedal[0], |v| number(v.raw(), 0.4))),
             ("EBSRedWarning", switch(i.ebs_red)),
             ("ABSEBSAmberWarning", switch(i.ebs_amber)),
         ],
@@ -103,6 +101,10 @@ fn expected(
         Message::Accelerator => vec![
             ("AccelPedalPosition1", signal(i.accelerator[0], |v| number(v.raw(), 0.4))),
             ("AccelPedalPosition2", signal(i.accelerator[1], |v| number(v.raw(), 0.4))),
+        ],
+        Message::BrakePedal1 => vec![
+            ("EBSBrakeSwitch", yes(i.brake_switch)),
+            ("BrakePedalPosition1", signal(i.brake_pedal[0], |v| number(v.raw(), 0.4))),
         ],
         Message::BrakePedal2 => vec![("BrakePedalPosition2", signal(i.brake_pedal[1], |v| number(v.raw(), 0.4)))],
         Message::DriveStatus => vec![

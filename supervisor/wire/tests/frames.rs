@@ -250,7 +250,7 @@ fn reserved_bits() {
 fn meaningful(signal: &SignalLayout, raw: u64) -> bool {
     match signal.name {
         "SeatSensor1" | "SeatSensor2" | "DriveStopped" | "StabilityActive" | "HandsOff" | "EPBState" | "EPBMode"
-        | "CruiseSwitch" | "DriverSet" | "K1" | "K4" | "AuxiliariesStopped" => raw != 2,
+        | "CruiseSwitch" | "DriverSet" | "K1" | "K4" | "AuxiliariesStopped" | "EBSBrakeSwitch" => raw != 2,
         "EPSState" | "ADSState" | "SelectedGear" | "CurrentGear" => raw <= 3 || raw == 7,
         "CameraClass" | "EPBRequest" | "K4Request" | "K1Request" | "XBRControlMode" => raw <= 2,
         "OverrideControlMode" | "RetarderControlMode" => raw == 0 || raw == 2,
