@@ -192,8 +192,8 @@ lanes! {
         "mass", "mass", number_text, input_tone, |c| known(c.inputs.mass, |_| 0);
         "axle_pressure_front", "brake pressure, front axle", number_text, input_tone, |c| known(c.inputs.axle_pressure[0], |_| 0);
         "axle_pressure_rear", "brake pressure, rear axle", number_text, input_tone, |c| known(c.inputs.axle_pressure[1], |_| 0);
-        "foreign", "somebody else commands", yes, state_tone, |c| u16::from(c.inputs.foreign != supervisor::Channels::NONE);
-        "second_sender", "second sender of our address", yes, state_tone, |c| u16::from(c.inputs.second_sender);
+        "foreign", "somebody else commands", yes, fault_tone, |c| u16::from(c.inputs.foreign != supervisor::Channels::NONE);
+        "second_sender", "second sender of our address", yes, fault_tone, |c| u16::from(c.inputs.second_sender);
         "deceleration", "deceleration", number_text, input_tone, |c| known(c.inputs.deceleration, |_| 0);
         "abs", "ABS", yes, input_tone, |c| known(c.inputs.abs, u8::from);
         "asr", "ASR", yes, input_tone, |c| known(c.inputs.asr, u8::from);
