@@ -4,6 +4,7 @@
 pub mod boot;
 pub mod brake;
 pub mod drive;
+pub(crate) mod facts;
 pub mod gear;
 pub mod high_voltage;
 pub mod mitigation;
