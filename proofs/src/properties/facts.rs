@@ -140,4 +140,10 @@ impl Cycle<'_> {
             && (self.new.seat.leave || self.new.mitigation.three)
             && self.inputs.abs.is(false)
     }
+    /// The brake pedal is known pressed: by its switch, or by a track in range beyond where it counts as pressed.
+    pub(crate) fn brake_pressed(&self) -> bool {
+        let beyond = |travel: Pedal250| travel > self.config.pedal_pressed && travel <= Pedal250::new(250);
+        let tracks = self.inputs.brake_pedal.iter().any(|track| track.known().is_some_and(beyond));
+        self.inputs.brake_switch.is(true) || tracks
+    }
 }

@@ -1,14 +1,17 @@
 //! The properties: each safety requirement once, as a plain function over one cycle, named by its id. `true` means that
 //! the requirement holds. Kani calls them on any cycle, proptest, the explorer and cargo-fuzz on those they reach.
 
+pub mod auxiliaries;
 pub mod boot;
 pub mod brake;
+pub mod clock;
 pub mod drive;
 pub(crate) mod facts;
 pub mod gear;
 pub mod high_voltage;
 pub mod mitigation;
 pub mod parking;
+pub mod rules;
 pub mod seat;
 pub mod steering;
 pub mod supervisor;
@@ -74,6 +77,9 @@ pub const ALL: &[&[Property]] = &[
     drive::ALL,
     steering::ALL,
     supervisor::ALL,
+    clock::ALL,
+    auxiliaries::ALL,
+    rules::ALL,
 ];
 
 /// `a` ⇒ `b`.
