@@ -26,12 +26,12 @@ pub fn self_9_boot_exactly(state: &State, cause: ResetCause, record: Option<Reco
     let leave = record == Some(Record::Leave);
     let down = record == Some(Record::HighVoltageDown);
     let pending = if clean { Pending::Clean } else { Pending::Other };
-    let stage = if down { Stage::OpeningK4 } else { Stage::Up };
+    let shutdown = if down { Stage::OpeningK4 } else { Stage::Up };
     let expected = State {
         boot: Boot { pending, ..Boot::INITIAL },
         seat: SeatState { leave, ..SeatState::INITIAL },
         parking: Parking { by_leave: leave || down, ..Parking::INITIAL },
-        high_voltage: HighVoltage { stage, ..HighVoltage::INITIAL },
+        high_voltage: HighVoltage { stage: shutdown, ..HighVoltage::INITIAL },
         ..State::INITIAL
     };
     *state == expected

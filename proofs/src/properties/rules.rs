@@ -59,7 +59,7 @@ pub fn rule_1_unknown_permits_nothing(cycle: &Cycle<'_>) -> bool {
     let speed = cycle.known_speeds().is_some();
     let driver = seat || (speed && known(inputs.epb));
     let gears = [envelope.gear.drive, envelope.gear.reverse];
-    let drives = matches!(inputs.gear.known(), Some(Gear::Drive | Gear::Reverse))
+    let in_gear = matches!(inputs.gear.known(), Some(Gear::Drive | Gear::Reverse))
         && inputs.drive_limit.known().is_some_and(|limit| limit <= Percent::FULL);
     let bounds = [envelope.torque.driver.most, envelope.torque.automated.most, envelope.torque.epbi.most];
     let torque = inputs.executed_torque.known().is_some_and(|torque| torque <= Percent::FULL);
@@ -68,7 +68,7 @@ pub fn rule_1_unknown_permits_nothing(cycle: &Cycle<'_>) -> bool {
         && implies(envelope.epb.apply.is_ok() && envelope.epb.obliged.is_none(), speed)
         && gears.iter().all(|gear| implies(gear.is_ok(), driver && speed && known(inputs.selector)))
         && implies(envelope.gear.park.is_ok(), seat && speed && known(inputs.selector))
-        && bounds.iter().all(|most| implies(*most > Percent::ZERO, driver && drives))
+        && bounds.iter().all(|most| implies(*most > Percent::ZERO, driver && in_gear))
         && implies(envelope.torque.driver.most > Percent::ZERO, cycle.accelerator().is_some())
         && implies(envelope.torque.hill_hold, seat && speed)
         && implies(envelope.k4.open.is_ok(), speed && torque)
