@@ -7,7 +7,6 @@ use supervisor_core::{
     vet_drive, vet_epb, vet_gear, vet_mode, vet_retarder, vet_steering, vet_target_speed, vet_warnings,
 };
 
-use super::Any;
 use crate::properties::command::{
     cmd_2_usable_exactly, cmd_5_brake_nearest, cmd_5_drive_nearest, cmd_5_envelope_explains, cmd_5_steering_nearest,
     cmd_5_verdict_is_true,
@@ -103,16 +102,6 @@ fn cmd_1_closed_world() {
     );
     kani::cover!(Channel::from_code(code).is_some(), "a channel");
     kani::cover!(Channel::from_code(code).is_none(), "no channel");
-}
-
-/// CMD-5b: every refusal and every bound of any cycle has a reason.
-#[kani::proof]
-#[kani::unwind(17)]
-fn cmd_5_every_refusal_has_a_reason() {
-    let any = Any::new();
-    assert!(cmd_5_envelope_explains(&any.decided.envelope));
-    kani::cover!(any.decided.envelope.automated.is_err(), "a mode is refused");
-    kani::cover!(any.decided.envelope.brake.floor.most > DecelMs2Q11::ZERO, "a deceleration is obliged");
 }
 
 /// CMD-3b, CMD-3c, CMD-5a, CMD-5b: on every channel the verdict says what happened, with a reason for all but pass; blocked is

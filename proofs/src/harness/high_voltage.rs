@@ -53,43 +53,30 @@ fn seat_8_high_voltage_only_by_restart() {
     kani::cover!(outputs.contactors.k4 == ContactorRequest::Close, "K4 closes");
 }
 
-/// SEAT-7, SEAT-8, SEAT-9b, SEAT-11, SELF-9b: stages, deadlines, the ten minutes and the restart, exactly.
+/// SEAT-7, SEAT-8, SEAT-9b, SEAT-11, SELF-9b, RULE-4b, SELF-11h: stages, deadlines, the ten minutes and the restart, exactly; what is
+/// owed goes out and waits for its guards, and what is in order passes.
 #[kani::proof]
 #[kani::unwind(17)]
-fn seat_7_stages_and_times_exactly() {
+fn seat_7_high_voltage_exactly() {
     let any = Any::new();
-    let outputs: Outputs = kani::any();
+    let outputs = any.contactors();
     let cycle = any.cycle(&outputs);
     assert!(seat_7_stages_exactly(&cycle));
     assert!(seat_7_deadlines(&cycle));
     assert!(seat_11_ten_minutes_exactly(&cycle));
     assert!(self_9_clean_key_on(&cycle));
-    let (old, new) = (&any.old.high_voltage, &any.decided.state.high_voltage);
-    kani::cover!(old.stage == Stage::Up && new.stage == Stage::OpeningK4, "the shutdown begins");
-    kani::cover!(old.stage == Stage::Down && new.stage == Stage::Up, "high voltage may come again");
-    kani::cover!(new.stage == Stage::OpeningK1 && new.wait.reached(any.config.k1_deadline), "a deadline is missed");
-    kani::cover!(new.parked > old.parked && !cycle.vacant(), "an unknown seat lets the ten minutes continue");
-    kani::cover!(any.old.boot.pending == Pending::Clean && new.restart == Restart::OffSeen, "a clean key-on");
-}
-
-/// SEAT-7c, SEAT-7i, SEAT-7j, RULE-4b, SELF-11h: what is owed goes out, waits for its guards, and what is in order passes.
-#[kani::proof]
-#[kani::unwind(17)]
-fn seat_7_owed_and_in_order() {
-    let any = Any::new();
-    let outputs = any.contactors();
-    let cycle = any.cycle(&outputs);
     assert!(seat_7_k4_opens_with_parking_brake(&cycle));
     assert!(seat_7_sequence_stays_owed(&cycle));
     assert!(rule_4_guard_lost_waits(&cycle));
     assert!(self_11_contactors_pass(&cycle));
-    let machine = &any.decided.state.high_voltage;
-    let opens = outputs.contactors.k4 == ContactorRequest::Open;
-    kani::cover!(opens && machine.wait.reached(any.config.k4_deadline), "K4 stays commanded after its deadline");
-    kani::cover!(
-        outputs.contactors.k1 == ContactorRequest::Open && machine.wait.reached(any.config.k1_deadline),
-        "K1 too"
-    );
-    kani::cover!(machine.stage == Stage::OpeningK4 && outputs.contactors == Contactors::NEUTRAL, "it waits");
-    kani::cover!(opens && machine.stage == Stage::Up, "K4 opens on request");
+    let (old, new) = (&any.old.high_voltage, &any.decided.state.high_voltage);
+    kani::cover!(old.stage == Stage::Up && new.stage == Stage::OpeningK4, "the shutdown begins");
+    kani::cover!(old.stage == Stage::Down && new.stage == Stage::Up, "high voltage may come again");
+    kani::cover!(new.parked > old.parked && !cycle.vacant(), "an unknown seat lets the ten minutes continue");
+    kani::cover!(any.old.boot.pending == Pending::Clean && new.restart == Restart::OffSeen, "a clean key-on");
+    let (k4, k1) = (outputs.contactors.k4 == ContactorRequest::Open, outputs.contactors.k1 == ContactorRequest::Open);
+    kani::cover!(k4 && new.wait.reached(any.config.k4_deadline), "K4 stays commanded after its deadline");
+    kani::cover!(k1 && new.wait.reached(any.config.k1_deadline), "K1 is commanded after its deadline");
+    kani::cover!(new.stage == Stage::OpeningK4 && outputs.contactors == Contactors::NEUTRAL, "it waits");
+    kani::cover!(k4 && new.stage == Stage::Up, "K4 opens on request");
 }

@@ -3,13 +3,14 @@
 use supervisor_core::{Mode, Outputs, vet_body, vet_brake, vet_drive, vet_epb, vet_mode, vet_retarder, vet_steering};
 
 use super::Any;
+use crate::properties::command::cmd_5_envelope_explains;
 use crate::properties::rules::{
     cmd_1_fields_in_range, cmd_3_rates_count_from_the_output, cmd_7_commands_are_no_evidence,
     rule_1_unknown_begins_nothing, rule_1_unknown_ends_nothing, rule_1_unknown_is_reported,
     rule_1_unknown_permits_nothing, rule_6_speeds,
 };
 
-/// RULE-1, RULE-6: unknown begins nothing, ends nothing, permits nothing; which of the two speeds counts.
+/// RULE-1, RULE-6, CMD-5b: every refusal has a reason; unknown begins nothing, ends nothing, permits nothing; which of the two speeds counts.
 #[kani::proof]
 #[kani::unwind(17)]
 fn rule_1_unknown() {
@@ -21,6 +22,7 @@ fn rule_1_unknown() {
     assert!(rule_1_unknown_permits_nothing(&cycle));
     assert!(rule_1_unknown_ends_nothing(&cycle));
     assert!(rule_6_speeds(&cycle));
+    assert!(cmd_5_envelope_explains(&any.decided.envelope));
     let no_speed = cycle.known_speeds().is_none();
     kani::cover!(no_speed && any.decided.state.seat.leave && any.old.seat.leave, "leave without a speed");
     kani::cover!(no_speed && any.old.mitigation.three && !any.decided.state.mitigation.three, "level 3 becomes a hold");

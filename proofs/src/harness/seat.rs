@@ -11,31 +11,11 @@ use crate::properties::seat::{
     seat_10_unknown_obliges_nothing, seat_10_unknown_permits_nothing,
 };
 
-/// SEAT-0, SEAT-1, SEAT-9, SEAT-10: confirmed, vacancy and leave, exactly.
+/// SEAT-0, SEAT-1, SEAT-9, SEAT-10: confirmed, vacancy and leave, exactly; leave warns; nothing is given back by itself, and
+/// nothing is permitted without the seat.
 #[kani::proof]
 #[kani::unwind(17)]
 fn seat_1_leave_exactly() {
-    let any = Any::new();
-    let outputs: Outputs = kani::any();
-    let cycle = any.cycle(&outputs);
-    assert!(seat_0a_confirmed_exactly(&cycle));
-    assert!(seat_1_leave_begins_and_ends_exactly(&cycle));
-    assert!(seat_1_vacancy_counts_exactly(&cycle));
-    assert!(seat_9_return_ends_and_resets(&cycle));
-    assert!(seat_10_unknown_obliges_nothing(&cycle));
-    assert!(seat_10_unknown_is_reported(&cycle));
-    let (old, new) = (&any.old.seat, &any.decided.state.seat);
-    kani::cover!(!old.leave && new.leave, "leave begins");
-    kani::cover!(old.leave && !new.leave, "leave ends");
-    kani::cover!(new.unknown.is_running() && new.vacant.is_running(), "the vacancy is frozen");
-    kani::cover!(!new.vacant.is_running() && new.unknown.is_running() && old.vacant.is_running(), "and then reset");
-    kani::cover!(new.occupied.is_running() && !new.confirmed(&any.config), "occupied, not yet confirmed");
-}
-
-/// SEAT-1, SEAT-9, SEAT-10: leave warns; nothing is given back by itself, and nothing is permitted without the seat.
-#[kani::proof]
-#[kani::unwind(17)]
-fn seat_9_nothing_by_itself() {
     let any = Any::new();
     let (envelope, commands) = (&any.decided.envelope, &any.commands);
     let others: Outputs = kani::any();
@@ -47,10 +27,21 @@ fn seat_9_nothing_by_itself() {
         ..others
     };
     let cycle = any.cycle(&outputs);
+    assert!(seat_0a_confirmed_exactly(&cycle));
+    assert!(seat_1_leave_begins_and_ends_exactly(&cycle));
+    assert!(seat_1_vacancy_counts_exactly(&cycle));
     assert!(seat_1_leave_warns(&cycle));
+    assert!(seat_9_return_ends_and_resets(&cycle));
     assert!(seat_9_nothing_is_given_back_by_itself(&cycle));
+    assert!(seat_10_unknown_obliges_nothing(&cycle));
     assert!(seat_10_unknown_permits_nothing(&cycle));
-    kani::cover!(any.decided.state.seat.leave && outputs.warnings.seat_leave, "leave warns");
+    assert!(seat_10_unknown_is_reported(&cycle));
+    let (old, new) = (&any.old.seat, &any.decided.state.seat);
+    kani::cover!(!old.leave && new.leave && outputs.warnings.seat_leave, "leave begins and warns");
+    kani::cover!(old.leave && !new.leave, "leave ends");
+    kani::cover!(new.unknown.is_running() && new.vacant.is_running(), "the vacancy is frozen");
+    kani::cover!(!new.vacant.is_running() && new.unknown.is_running() && old.vacant.is_running(), "and then reset");
+    kani::cover!(new.occupied.is_running() && !new.confirmed(&any.config), "occupied, not yet confirmed");
     kani::cover!(outputs.epb.request == EpbRequest::Release, "a release that was asked for");
     kani::cover!(outputs.gear == GearRequest::Drive, "a gear that was asked for");
     kani::cover!(outputs.contactors.k1 == ContactorRequest::Close, "a contactor that was asked to close");
