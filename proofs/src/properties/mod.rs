@@ -1,13 +1,21 @@
 //! The properties: each safety requirement once, as a plain function over one cycle, named by its id. `true` means that
 //! the requirement holds. Kani calls them on any cycle, proptest, the explorer and cargo-fuzz on those they reach.
 
+pub mod auxiliaries;
 pub mod boot;
 pub mod brake;
+pub mod clock;
+pub mod command;
+pub mod configuration;
 pub mod drive;
+pub(crate) mod facts;
+pub mod flow;
 pub mod gear;
 pub mod high_voltage;
 pub mod mitigation;
 pub mod parking;
+pub mod recovery;
+pub mod rules;
 pub mod seat;
 pub mod steering;
 pub mod supervisor;
@@ -73,6 +81,9 @@ pub const ALL: &[&[Property]] = &[
     drive::ALL,
     steering::ALL,
     supervisor::ALL,
+    clock::ALL,
+    auxiliaries::ALL,
+    rules::ALL,
 ];
 
 /// `a` ⇒ `b`.
