@@ -1,17 +1,24 @@
 //! The properties: each safety requirement once, as a plain function over one cycle, named by its id. `true` means that
 //! the requirement holds. Kani calls them on any cycle, proptest, the explorer and cargo-fuzz on those they reach.
 
+pub mod body;
 pub mod boot;
 pub mod brake;
+pub mod cap;
 pub mod drive;
 pub mod gear;
 pub mod high_voltage;
+mod known;
+pub mod leave;
 pub mod mitigation;
 pub mod parking;
+pub mod retarder;
 pub mod seat;
+pub mod split;
 pub mod steering;
 pub mod supervisor;
 pub mod vetting;
+pub mod warnings;
 
 use supervisor_core::{
     Commands, Config, Decided, Envelope, EpbRequest, Evidence, Faults, Inputs, Millis, Outputs, Percent, Response,
@@ -69,7 +76,13 @@ pub const ALL: &[&[Property]] = &[
     high_voltage::ALL,
     gear::ALL,
     mitigation::ALL,
+    leave::ALL,
     brake::ALL,
+    cap::ALL,
+    split::ALL,
+    retarder::ALL,
+    warnings::ALL,
+    body::ALL,
     drive::ALL,
     steering::ALL,
     supervisor::ALL,
