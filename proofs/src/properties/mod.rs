@@ -2,24 +2,31 @@
 //! the requirement holds. Kani calls them on any cycle, proptest, the explorer and cargo-fuzz on those they reach.
 
 pub mod auxiliaries;
+pub mod body;
 pub mod boot;
 pub mod brake;
+pub mod cap;
 pub mod clock;
 pub mod command;
 pub mod configuration;
 pub mod drive;
-pub(crate) mod facts;
 pub mod flow;
 pub mod gear;
 pub mod high_voltage;
+pub mod leave;
 pub mod mitigation;
 pub mod parking;
 pub mod recovery;
+pub mod retarder;
 pub mod rules;
 pub mod seat;
+pub mod split;
 pub mod steering;
 pub mod supervisor;
 pub mod vetting;
+pub mod warnings;
+pub(crate) mod facts;
+mod known;
 
 use supervisor_core::{
     Commands, Config, Decided, Envelope, EpbRequest, Evidence, Faults, Inputs, Millis, Outputs, Percent, Response,
@@ -77,7 +84,13 @@ pub const ALL: &[&[Property]] = &[
     high_voltage::ALL,
     gear::ALL,
     mitigation::ALL,
+    leave::ALL,
     brake::ALL,
+    cap::ALL,
+    split::ALL,
+    retarder::ALL,
+    warnings::ALL,
+    body::ALL,
     drive::ALL,
     steering::ALL,
     supervisor::ALL,
