@@ -4,10 +4,14 @@
 pub mod boot;
 pub mod brake;
 pub mod drive;
+pub mod follow;
 pub mod gear;
 pub mod high_voltage;
 pub mod mitigation;
+pub mod mode;
 pub mod parking;
+mod reading;
+pub mod response;
 pub mod seat;
 pub mod steering;
 pub mod supervisor;
@@ -71,6 +75,7 @@ pub const ALL: &[&[Property]] = &[
     mitigation::ALL,
     brake::ALL,
     drive::ALL,
+    mode::ALL,
     steering::ALL,
     supervisor::ALL,
 ];
