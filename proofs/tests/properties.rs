@@ -62,7 +62,8 @@ fn every_property_is_listed() {
         include_str!("../src/properties/supervisor.rs"),
     ];
     let stated = files.iter().flat_map(|file| file.lines());
-    let stated = stated.filter(|line| line.starts_with("pub fn") && line.contains("(cycle: &Cycle<'_>) -> bool")).count();
+    let stated =
+        stated.filter(|line| line.starts_with("pub fn") && line.contains("(cycle: &Cycle<'_>) -> bool")).count();
     let listed: usize = ALL.iter().map(|list| list.len()).sum();
     assert!(stated > 20);
     assert_eq!(stated, listed);

@@ -3,7 +3,10 @@
 mod brake;
 mod drive;
 mod high_voltage;
+mod mode;
 mod parking;
+mod response;
+mod steering;
 mod supervisor;
 mod uninterpreted;
 mod vetting;

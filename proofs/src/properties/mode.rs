@@ -130,11 +130,7 @@ pub fn mode_1_end_is_shown(cycle: &Cycle<'_>) -> bool {
     let new = &cycle.new.drive;
     let told = matches!(
         new.exit,
-        ExitReason::None
-            | ExitReason::Requested
-            | ExitReason::BrakePedal
-            | ExitReason::Switch
-            | ExitReason::Mitigation
+        ExitReason::None | ExitReason::Requested | ExitReason::BrakePedal | ExitReason::Switch | ExitReason::Mitigation
     );
     let untold = new.mode == Mode::Manual && !told;
     let counted = cycle.old.drive.notice.run(ticks(cycle).permission);

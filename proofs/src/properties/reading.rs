@@ -1,7 +1,7 @@
 //! What the inputs of a cycle say about driver, pedals, speed and steering, read once more from the requirements: a
 //! property does not take the word of the code that it judges.
 
-use supervisor_core::{Config, Deviation, Inputs, Pedal250, Signal, Ticks, kernel};
+use supervisor_core::{AngleDeciDeg, Config, Deviation, Inputs, Pedal250, Signal, Ticks, kernel};
 
 use super::{Cycle, sits};
 
@@ -64,7 +64,7 @@ pub(crate) fn confirmed(cycle: &Cycle<'_>) -> bool {
 /// STR-1d: the steering-wheel angle, where it is known and plausible.
 pub(crate) fn steering_angle(cycle: &Cycle<'_>) -> Option<i16> {
     let range = cycle.config.steering_range.raw().unsigned_abs();
-    cycle.inputs.steering_angle.known().map(|angle| angle.raw()).filter(|angle| angle.unsigned_abs() <= range)
+    cycle.inputs.steering_angle.known().map(AngleDeciDeg::raw).filter(|angle| angle.unsigned_abs() <= range)
 }
 
 /// A mitigation latch, or the hold that follows it.

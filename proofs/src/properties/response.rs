@@ -70,8 +70,8 @@ fn share(value: u16, percent: Percent) -> u16 {
 
 /// The service brake is compared: it was told enough, the bus is not known to be slow, ABS is not known at work.
 fn brake_compared(watch: &Watch<'_>) -> bool {
-    let slow = agreed_speeds_of(watch.inputs, watch.config)
-        .is_some_and(|(_, high)| high < watch.config.response_speed.raw());
+    let slow =
+        agreed_speeds_of(watch.inputs, watch.config).is_some_and(|(_, high)| high < watch.config.response_speed.raw());
     watch.old.service >= watch.config.response_decel && !slow && !watch.inputs.abs.is(true)
 }
 
@@ -208,9 +208,7 @@ pub fn trq_7_excess_is_found_exactly(watch: &Watch<'_>) -> bool {
         (true, false) => Deviation::Confirmed,
         (true, true) => Deviation::Persistent,
     };
-    found
-        && watch.response.torque == expected
-        && watch.response.faults.contains(Faults::EXCESS_TORQUE) == new.disobeys
+    found && watch.response.torque == expected && watch.response.faults.contains(Faults::EXCESS_TORQUE) == new.disobeys
 }
 
 /// RSP-1d: a gear that was asked for and is known not to be reached, for its time, is reported.
@@ -326,11 +324,8 @@ pub fn rsp_1_compared_with_what_went_out(watch: &Watch<'_>) -> bool {
     let steers = if out.steering.enable { out.steering.weight } else { Percent::ZERO };
     let anew = watch.emergency && !new.emergency && !new.helps;
     let timer = |timer| if anew { Timer::STOPPED } else { timer };
-    let brake = supervisor_core::Follow {
-        command: timer(new.brake.command),
-        response: timer(new.brake.response),
-        ..new.brake
-    };
+    let brake =
+        supervisor_core::Follow { command: timer(new.brake.command), response: timer(new.brake.response), ..new.brake };
     next.service == out.brake.total
         && next.total == watch.total
         && next.emergency == watch.emergency
@@ -344,7 +339,13 @@ pub fn rsp_1_compared_with_what_went_out(watch: &Watch<'_>) -> bool {
 }
 
 /// A position that is asked for stays so until it is reached; what is seen is the last one known.
-fn kept<T: Copy + PartialEq>(old: &Moves<T>, position: Signal<T>, new: &Moves<T>, asks: Option<T>, next: &Moves<T>) -> bool {
+fn kept<T: Copy + PartialEq>(
+    old: &Moves<T>,
+    position: Signal<T>,
+    new: &Moves<T>,
+    asks: Option<T>,
+    next: &Moves<T>,
+) -> bool {
     let reached = old.asked.is_some_and(|asked| position.is(asked));
     new.seen == position.known().or(old.seen)
         && new.asked == old.asked.filter(|_| !reached)

@@ -157,10 +157,10 @@ pub fn str_2_overlay_fades(cycle: &Cycle<'_>) -> bool {
         let whole = u16::try_from(full).unwrap_or(0);
         i32::from(kernel::share_down(whole, fade(cycle, outwards)).min(32_767))
     };
-    let last = i32::from(cycle.old.steering.overlay.raw()).max(-full).min(full);
+    let before = i32::from(cycle.old.steering.overlay.raw()).max(-full).min(full);
     // Towards 0 it fades out, away from 0 in.
-    let (down, up) = (step(last > 0), step(last < 0));
-    let (least, most) = ((last - down).max(-full), (last + up).min(full));
+    let (down, up) = (step(before > 0), step(before < 0));
+    let (least, most) = ((before - down).max(-full), (before + up).min(full));
     let wanted = granted(cycle).map_or(0, |asked| i32::from(asked.overlay.raw()));
     i32::from(cycle.outputs.steering.overlay.raw()) == wanted.max(least).min(most)
 }
@@ -169,9 +169,9 @@ pub fn str_2_overlay_fades(cycle: &Cycle<'_>) -> bool {
 /// fades out, and automatic steering acts until it has.
 #[must_use]
 pub fn str_2_weight_fades(cycle: &Cycle<'_>) -> bool {
-    let last = cycle.old.steering.weight.raw().min(100);
-    let least = last.saturating_sub(fade(cycle, true));
-    let most = last.saturating_add(fade(cycle, false)).min(100);
+    let before = cycle.old.steering.weight.raw().min(100);
+    let least = before.saturating_sub(fade(cycle, true));
+    let most = before.saturating_add(fade(cycle, false)).min(100);
     let out = &cycle.outputs.steering;
     match granted(cycle) {
         Some(asked) => out.enable && out.weight.raw() == asked.weight.raw().max(least).min(most),
