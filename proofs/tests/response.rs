@@ -95,3 +95,13 @@ proptest! {
 fn config_time() -> supervisor_core::Millis {
     Config::DEFAULT.response_drive
 }
+
+/// Every property of the monitors is listed in `ALL`.
+#[test]
+fn every_property_of_the_monitors_is_listed() {
+    let lines = include_str!("../src/properties/response.rs").lines();
+    let stated =
+        lines.filter(|line| line.starts_with("pub fn") && line.contains("(watch: &Watch<'_>) -> bool")).count();
+    assert!(stated > 10);
+    assert_eq!(stated, ALL.len());
+}

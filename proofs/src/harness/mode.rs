@@ -4,9 +4,8 @@ use supervisor_core::{Commands, DrivingMode, ExitReason, Mode, SpeedKmhQ8, vet};
 
 use super::{Any, uninterpreted};
 use crate::properties::mode::{
-    mode_1_begins_only_by_the_driver, mode_1_end_is_shown, mode_1_ends_exactly_for_a_reason,
-    mode_1_follows_what_went_out, mode_1_set_is_new_evidence, spd_1_target_speed_is_exactly_bounded,
-    trq_4_compares_with_what_was_asked, trq_4_never_against_an_obligation, trq_4_override_suspends,
+    mode_1_begins_only_by_the_driver, mode_1_ends_exactly_for_a_reason, spd_1_target_speed_is_exactly_bounded,
+    trq_4_never_against_an_obligation, trq_4_override_suspends,
 };
 
 /// MODE-1, TRQ-3c, TRQ-4, SPD-1: when the mode begins, is suspended and ends, exactly; and the target speed with it.
@@ -29,24 +28,6 @@ fn mode_1_begins_is_suspended_and_ends() {
     kani::cover!(old.mode == Mode::Suspended && new.mode == Mode::Automated, "the override ends");
     kani::cover!(old.mode != Mode::Manual && new.exit == ExitReason::InputLost, "the last of the reasons");
     kani::cover!(outputs.target_speed > SpeedKmhQ8::ZERO, "a target speed passes");
-}
-
-/// MODE-1a, MODE-1f, TRQ-2b, TRQ-4b: what the next cycle knows of the mode, and what the driver sees of its end.
-#[kani::proof]
-#[kani::unwind(17)]
-#[kani::stub(supervisor_core::kernel::portion, uninterpreted::portion)]
-fn mode_1_kept_and_shown() {
-    let mut any = Any::new();
-    let outputs = any.driving();
-    any.record(&outputs);
-    let cycle = any.cycle(&outputs);
-    assert!(mode_1_set_is_new_evidence(&cycle));
-    assert!(mode_1_follows_what_went_out(&cycle));
-    assert!(mode_1_end_is_shown(&cycle));
-    assert!(trq_4_compares_with_what_was_asked(&cycle));
-    kani::cover!(any.next.drive.mode == Mode::Automated && any.old.drive.mode == Mode::Manual, "the mode began");
-    kani::cover!(any.next.drive.exit == ExitReason::CommandLost && outputs.warnings.notice_lamp, "an end is shown");
-    kani::cover!(any.next.drive.armed, "set was seen off");
 }
 
 /// SPD-1c: whatever the target speed, nothing else that goes out depends on it, the brake least of all.

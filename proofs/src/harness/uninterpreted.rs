@@ -17,8 +17,11 @@ struct Calls {
 
 impl Calls {
     const fn new() -> Self {
-        const ZERO: AtomicU64 = AtomicU64::new(0);
-        Self { count: AtomicUsize::new(0), arguments: [ZERO; CALLS], results: [ZERO; CALLS] }
+        Self {
+            count: AtomicUsize::new(0),
+            arguments: [const { AtomicU64::new(0) }; CALLS],
+            results: [const { AtomicU64::new(0) }; CALLS],
+        }
     }
 
     /// Any result, but the one of before where the arguments are those of before: no assumption narrows the first.

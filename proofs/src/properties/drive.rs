@@ -73,8 +73,8 @@ fn brakes(cycle: &Cycle<'_>) -> bool {
     cycle.envelope.brake.total(cycle.outputs) > DecelMs2Q11::ZERO
 }
 
-/// TRQ-1: the most that the accelerator asks for: the map, linear between its points 10 % apart, and its tolerance from where
-/// the pedal counts as pressed. Nothing where it is unknown or the brake pedal is, or may be, pressed too.
+/// TRQ-1: the most that the accelerator asks for: the map, linear between its points 10 % apart, and its tolerance from
+/// where the pedal counts as pressed. Nothing where it is unknown or the brake pedal is, or may be, pressed too.
 fn by_pedal(cycle: &Cycle<'_>) -> u8 {
     let Some(travel) = accelerator(cycle).filter(|_| !both_pedals(cycle)) else { return 0 };
     let map = &cycle.config.pedal_map.0;
@@ -92,16 +92,16 @@ fn ramp(cycle: &Cycle<'_>) -> u8 {
     u8::try_from(u32::from(drive.torque.raw()).saturating_add(rise).min(100)).unwrap_or(100)
 }
 
-/// TRQ-1a, TRQ-1b, TRQ-1c, TRQ-4f: what the driver asks for, and whoever asks while the driver overrides, gets no more than
-/// the accelerator says.
+/// TRQ-1a, TRQ-1b, TRQ-1c, TRQ-4f: what the driver asks for, and whoever asks while the driver overrides, gets no more
+/// than the accelerator says.
 #[must_use]
 pub fn trq_1_pedal_governs(cycle: &Cycle<'_>) -> bool {
     let driver = cycle.outputs.drive.origin == Origin::Driver || cycle.new.drive.mode == Mode::Suspended;
     implies(driver, cycle.outputs.drive.torque.raw() <= by_pedal(cycle))
 }
 
-/// TRQ-2a to TRQ-2e, TRQ-3a: torque that the driver did not ask for passes only active, in the granted mode, with perception
-/// known and no obstacle, no obligation, the brake pedal known released, and within our acceleration bound.
+/// TRQ-2a to TRQ-2e, TRQ-3a: torque that the driver did not ask for passes only active, in the granted mode, with
+/// perception known and no obstacle, no obligation, the brake pedal known released, and within our acceleration bound.
 #[must_use]
 pub fn trq_2_automated_torque_needs_all(cycle: &Cycle<'_>) -> bool {
     let out = &cycle.outputs.drive;
@@ -122,8 +122,9 @@ pub fn trq_2_automated_torque_needs_all(cycle: &Cycle<'_>) -> bool {
     )
 }
 
-/// TRQ-5a, TRQ-5b, TRQ-5c, RSP-1n: never beyond the electric limit, nothing while it is unknown; no steeper rise than the
-/// gradient, but EPBi's begins at the idle torque; no rise at all while slip control works or may; and what falls, falls.
+/// TRQ-5a, TRQ-5b, TRQ-5c, RSP-1n: never beyond the electric limit, nothing while it is unknown; no steeper rise than
+/// the gradient, but EPBi's begins at the idle torque; no rise at all while slip control works or may; and what falls,
+/// falls.
 #[must_use]
 pub fn trq_5_within_limit_and_ramp(cycle: &Cycle<'_>) -> bool {
     let out = cycle.outputs.drive;
@@ -135,8 +136,8 @@ pub fn trq_5_within_limit_and_ramp(cycle: &Cycle<'_>) -> bool {
         && out.torque <= asked(cycle).map_or(Percent::ZERO, |asked| asked.torque)
 }
 
-/// TRQ-5b, TRQ-5d, CMD-3f: the gradient counts from what went out, also from the 0 of an obligation, and what it leaves below
-/// 1 % is kept, no more.
+/// TRQ-5b, TRQ-5d, CMD-3f: the gradient counts from what went out, also from the 0 of an obligation, and what it leaves
+/// below 1 % is kept, no more.
 #[must_use]
 pub fn trq_5_counts_from_our_last_output(cycle: &Cycle<'_>) -> bool {
     let (old, new, next) = (&cycle.old.drive, &cycle.new.drive, &cycle.next.drive);
@@ -163,16 +164,16 @@ fn holds_on_hill(cycle: &Cycle<'_>) -> bool {
     confirmed(cycle) && slow && left
 }
 
-/// TRQ-6a, TRQ-6b, TRQ-6c: against the brake only the driver's hill-hold; and only in the direction that the gearbox confirms
-/// and no output changes.
+/// TRQ-6a, TRQ-6b, TRQ-6c: against the brake only the driver's hill-hold; and only in the direction that the gearbox
+/// confirms and no output changes.
 #[must_use]
 pub fn trq_6_hill_hold(cycle: &Cycle<'_>) -> bool {
     let by_driver = cycle.outputs.drive.origin == Origin::Driver;
     implies(flows(cycle) && brakes(cycle), by_driver && holds_on_hill(cycle)) && implies(flows(cycle), in_gear(cycle))
 }
 
-/// TRQ-6b: the time of hill-hold begins with torque against the brake, runs until no deceleration is demanded whatever the
-/// torque does meanwhile, and is no shorter than real time.
+/// TRQ-6b: the time of hill-hold begins with torque against the brake, runs until no deceleration is demanded whatever
+/// the torque does meanwhile, and is no shorter than real time.
 #[must_use]
 pub fn trq_6_hill_hold_counts_real_time(cycle: &Cycle<'_>) -> bool {
     let (old, new, next) = (cycle.old.drive.hill, cycle.new.drive.hill, cycle.next.drive.hill);
@@ -235,9 +236,9 @@ fn most(cycle: &Cycle<'_>, asked: DriveTorque) -> u8 {
     }
 }
 
-/// SELF-11a, TRQ-1a to TRQ-1c, TRQ-2a to TRQ-2e, TRQ-3a, TRQ-4f, TRQ-5a to TRQ-5g, TRQ-6a to TRQ-6c, VLC-1a, VLC-1c, VLC-1d,
-/// SEAT-6b: what goes out is what is asked for, up to exactly what the requirements allow: nothing more, and nothing less, were
-/// it 1 %. Who may have none keeps no active flag either, but for coasting in the automated mode.
+/// SELF-11a, TRQ-1a to TRQ-1c, TRQ-2a to TRQ-2e, TRQ-3a, TRQ-4f, TRQ-5a to TRQ-5g, TRQ-6a to TRQ-6c, VLC-1a, VLC-1c,
+/// VLC-1d, SEAT-6b: what goes out is what is asked for, up to exactly what the requirements allow: nothing more, and
+/// nothing less, were it 1 %. Who may have none keeps no active flag either, but for coasting in the automated mode.
 #[must_use]
 pub fn self_11_torque_is_exactly_bounded(cycle: &Cycle<'_>) -> bool {
     let asked = asked(cycle).unwrap_or(DriveTorque::NEUTRAL);
@@ -247,7 +248,8 @@ pub fn self_11_torque_is_exactly_bounded(cycle: &Cycle<'_>) -> bool {
     cycle.outputs.drive == (if keeps { DriveTorque { torque, ..asked } } else { DriveTorque::NEUTRAL })
 }
 
-/// E2E-2a, E2E-2b: without a usable command there is no torque, and the gear is held, but for an obliged neutral (SEAT-6a).
+/// E2E-2a, E2E-2b: without a usable command there is no torque, and the gear is held, but for an obliged neutral
+/// (SEAT-6a).
 #[must_use]
 pub fn e2e_2_lost_drive_command(cycle: &Cycle<'_>) -> bool {
     let gear_lost = cycle.commands.gear.usable(cycle.config.timeout_100).is_err();

@@ -18,8 +18,9 @@ pub struct Pursuit {
     pub elapsed: Millis,
 }
 
-/// RSP-1a to RSP-1c, RSP-1g, RSP-1i: 95 % of the lowest target since it fell short is *reached*; from then on the error allowed counts. Short of it
-/// the time since the command runs, and from 5 % of the way on the time since the first response; reached, both stop.
+/// RSP-1a to RSP-1c, RSP-1g, RSP-1i: 95 % of the lowest target since it fell short is *reached*; from then on the error
+/// allowed counts. Short of it the time since the command runs, and from 5 % of the way on the time since the first
+/// response; reached, both stop.
 #[must_use]
 pub fn rsp_1_follow(Pursuit { old, target, measured, error, elapsed }: Pursuit, new: &Follow) -> bool {
     let Some(measured) = measured else { return *new == if target == 0 { Follow::INITIAL } else { old } };
@@ -40,8 +41,8 @@ pub fn rsp_1_follow(Pursuit { old, target, measured, error, elapsed }: Pursuit, 
     *new == Follow { reference, start, command: old.command.run(elapsed), response, following: false }
 }
 
-/// RSP-1a to RSP-1c, RSP-1g: it fails exactly when one of its times is reached, so never without a measured shortfall in this cycle or one
-/// before that nothing measured has ended since.
+/// RSP-1a to RSP-1c, RSP-1g: it fails exactly when one of its times is reached, so never without a measured shortfall
+/// in this cycle or one before that nothing measured has ended since.
 #[must_use]
 pub fn rsp_1_follow_fails(new: &Follow, inner: Millis, outer: Millis) -> bool {
     new.fails(inner, outer) == (new.command.reached(outer) || new.response.reached(inner))
@@ -62,8 +63,9 @@ pub struct Turn {
     pub elapsed: Millis,
 }
 
-/// RSP-1e, RSP-1f, RSP-1i, RSP-1j: off its target by more than the band the wheel is held against the target of then: more than 0.3° is a
-/// response, the target reached, or within the band of it on the way back, begins the time anew; beyond the target of now, the overshoot counts.
+/// RSP-1e, RSP-1f, RSP-1i, RSP-1j: off its target by more than the band the wheel is held against the target of then:
+/// more than 0.3° is a response, the target reached, or within the band of it on the way back, begins the time anew;
+/// beyond the target of now, the overshoot counts.
 #[must_use]
 pub fn rsp_1_steered(Turn { old, target, measured, band, elapsed }: Turn, new: &SteeredAngle) -> bool {
     let Some(measured) = measured else { return *new == old };

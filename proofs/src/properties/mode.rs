@@ -47,8 +47,8 @@ fn ends(cycle: &Cycle<'_>) -> Option<ExitReason> {
     }
 }
 
-/// MODE-1b, MODE-1c, MODE-1e, MODE-1f, TRQ-3c, E2E-2f: a running mode ends exactly when there is a reason, and the first one
-/// is kept; nothing begins before the outputs have gone out.
+/// MODE-1b, MODE-1c, MODE-1e, MODE-1f, TRQ-3c, E2E-2f: a running mode ends exactly when there is a reason, and the
+/// first one is kept; nothing begins before the outputs have gone out.
 #[must_use]
 pub fn mode_1_ends_exactly_for_a_reason(cycle: &Cycle<'_>) -> bool {
     let (old, new) = (&cycle.old.drive, &cycle.new.drive);
@@ -91,8 +91,8 @@ pub fn trq_4_never_against_an_obligation(cycle: &Cycle<'_>) -> bool {
     )
 }
 
-/// MODE-1a to MODE-1c, SELF-11k: *automated* goes out exactly when it is asked for, nothing speaks against it, and it runs
-/// already or the driver, confirmed on the seat, has set it anew.
+/// MODE-1a to MODE-1c, SELF-11k: *automated* goes out exactly when it is asked for, nothing speaks against it, and it
+/// runs already or the driver, confirmed on the seat, has set it anew.
 #[must_use]
 pub fn mode_1_begins_only_by_the_driver(cycle: &Cycle<'_>) -> bool {
     let asked = cycle.commands.mode.usable(cycle.config.timeout_200) == Ok(DrivingMode::Automated);
@@ -139,7 +139,8 @@ pub fn mode_1_end_is_shown(cycle: &Cycle<'_>) -> bool {
         && implies(untold && !new.notice.reached(cycle.config.notice_time), cycle.outputs.warnings.notice_lamp)
 }
 
-/// TRQ-4b to TRQ-4d: what the accelerator is compared with: the active torque that ADAS or EPBi asked for, up to our bound.
+/// TRQ-4b to TRQ-4d: what the accelerator is compared with: the active torque that ADAS or EPBi asked for, up to our
+/// bound.
 #[must_use]
 pub fn trq_4_compares_with_what_was_asked(cycle: &Cycle<'_>) -> bool {
     let asked = match cycle.commands.drive.usable(cycle.config.timeout_50) {
@@ -149,8 +150,8 @@ pub fn trq_4_compares_with_what_was_asked(cycle: &Cycle<'_>) -> bool {
     cycle.new.drive.automated == cycle.old.drive.automated && cycle.next.drive.automated == asked
 }
 
-/// SPD-1a, SPD-1b, SELF-11f: the target speed is what is asked for, up to the limit; 0 while an obligation runs or the mode
-/// is manual, or with an obstacle ahead.
+/// SPD-1a, SPD-1b, SELF-11f: the target speed is what is asked for, up to the limit; 0 while an obligation runs or the
+/// mode is manual, or with an obstacle ahead.
 #[must_use]
 pub fn spd_1_target_speed_is_exactly_bounded(cycle: &Cycle<'_>) -> bool {
     let asked = cycle.commands.target_speed.usable(cycle.config.timeout_50).unwrap_or(SpeedKmhQ8::ZERO);

@@ -81,7 +81,8 @@ fn deceleration(watch: &Watch<'_>) -> Option<u16> {
     agreed_speeds_of(watch.inputs, watch.config).map(|_| known.raw())
 }
 
-/// RSP-1b, RSP-1c, RSP-1g: it has not followed: in 1000 ms from the command, or 700 ms, in level 3 500 ms, from its first response.
+/// RSP-1b, RSP-1c, RSP-1g: it has not followed: in 1000 ms from the command, or 700 ms, in level 3 500 ms, from its
+/// first response.
 fn short(watch: &Watch<'_>) -> bool {
     let [ordinary, emergency, outer] = watch.config.response_brake.0;
     let inner = if watch.old.emergency { emergency } else { ordinary };
@@ -104,8 +105,8 @@ pub fn rsp_1_brake_is_compared(watch: &Watch<'_>) -> bool {
         && new.helps == (compared && (old.helps || short(watch) || unable))
 }
 
-/// RSP-1k, RSP-1m, EPB-1b: confirmed exactly for a shortfall, the help that it called or EBS red, at once; persistent exactly for a
-/// shortfall that EBS is red or level 3 runs with, or that the retarder had its time for.
+/// RSP-1k, RSP-1m, EPB-1b: confirmed exactly for a shortfall, the help that it called or EBS red, at once; persistent
+/// exactly for a shortfall that EBS is red or level 3 runs with, or that the retarder had its time for.
 #[must_use]
 pub fn rsp_1_brake_escalates_exactly(watch: &Watch<'_>) -> bool {
     let (short, red) = (short(watch), watch.inputs.ebs_red.is(true));
@@ -121,7 +122,8 @@ pub fn rsp_1_brake_escalates_exactly(watch: &Watch<'_>) -> bool {
         && faults.contains(Faults::EBS_RED) == red
 }
 
-/// RSP-1l: while ABS is at work no shortfall is found, and nothing that was found before stays; EBS red alone still helps.
+/// RSP-1l: while ABS is at work no shortfall is found, and nothing that was found before stays; EBS red alone still
+/// helps.
 #[must_use]
 pub fn rsp_1_abs_never_escalates(watch: &Watch<'_>) -> bool {
     let new = watch.new;
@@ -136,8 +138,8 @@ pub fn rsp_1_abs_never_escalates(watch: &Watch<'_>) -> bool {
     )
 }
 
-/// RULE-1d: what was found stays while the feedback is unknown and the demand goes on: nothing is taken back for want of
-/// evidence, and no timer runs on without any.
+/// RULE-1d: what was found stays while the feedback is unknown and the demand goes on: nothing is taken back for want
+/// of evidence, and no timer runs on without any.
 #[must_use]
 pub fn rsp_1_help_stays_while_unknown(watch: &Watch<'_>) -> bool {
     let (old, new) = (watch.old, watch.new);
@@ -171,8 +173,8 @@ fn executed(watch: &Watch<'_>) -> Option<u16> {
     watch.inputs.executed_torque.known().filter(|torque| *torque <= Percent::FULL).map(|torque| torque.raw().into())
 }
 
-/// RSP-1a, RSP-1f, RSP-1i: the drive is held against the last output from the idle torque on, not while slip control is known at work;
-/// 500 ms from the command or from its first response, and it is reported.
+/// RSP-1a, RSP-1f, RSP-1i: the drive is held against the last output from the idle torque on, not while slip control is
+/// known at work; 500 ms from the command or from its first response, and it is reported.
 #[must_use]
 pub fn rsp_1_drive(watch: &Watch<'_>) -> bool {
     let (old, config) = (watch.old, watch.config);
@@ -185,8 +187,9 @@ pub fn rsp_1_drive(watch: &Watch<'_>) -> bool {
     watch.new.drive == expected && watch.response.faults.contains(Faults::DRIVE_RESPONSE) == late
 }
 
-/// TRQ-7a, TRQ-7b: more torque than was told since it became too much, 15 % and the tolerance, for longer than the response time: a fault,
-/// from then on against 0, until no more is executed; persistent after the same time once more. Unknown changes nothing.
+/// TRQ-7a, TRQ-7b: more torque than was told since it became too much, 15 % and the tolerance, for longer than the
+/// response time: a fault, from then on against 0, until no more is executed; persistent after the same time once more.
+/// Unknown changes nothing.
 #[must_use]
 pub fn trq_7_excess_is_found_exactly(watch: &Watch<'_>) -> bool {
     let (old, new, config) = (watch.old, watch.new, watch.config);
@@ -223,8 +226,8 @@ pub fn rsp_1_gear(watch: &Watch<'_>) -> bool {
     watch.new.gear == expected && watch.response.faults.contains(Faults::GEAR_RESPONSE) == late
 }
 
-/// RSP-1e, RSP-1f, RSP-1i, RSP-1j: the wheel is held against the last angle while the weight is full, else forgotten; no response in 100 ms,
-/// not there in 500 ms, is what *does not follow*; beyond it for its time is an overshoot.
+/// RSP-1e, RSP-1f, RSP-1i, RSP-1j: the wheel is held against the last angle while the weight is full, else forgotten;
+/// no response in 100 ms, not there in 500 ms, is what *does not follow*; beyond it for its time is an overshoot.
 #[must_use]
 pub fn rsp_1_steering(watch: &Watch<'_>) -> bool {
     let (old, config) = (watch.old, watch.config);
@@ -267,8 +270,9 @@ fn unasked(watch: &Watch<'_>) -> bool {
         || inputs.foreign != Channels::NONE
 }
 
-/// SELF-10a, SELF-10b: a gear, a contactor or the parking brake that moves unasked, a steering that acts unasked for its time, a foreign actuator
-/// message are exactly what is reported as a bypass, and a second sender as that; a contactor's is a contactor fault, too.
+/// SELF-10a, SELF-10b: a gear, a contactor or the parking brake that moves unasked, a steering that acts unasked for
+/// its time, a foreign actuator message are exactly what is reported as a bypass, and a second sender as that; a
+/// contactor's is a contactor fault, too.
 #[must_use]
 pub fn self_10_unasked_is_a_bypass(watch: &Watch<'_>) -> bool {
     let (faults, inputs) = (watch.response.faults, watch.inputs);
@@ -296,7 +300,8 @@ pub fn self_10_bypass_counts_from_the_last(watch: &Watch<'_>) -> bool {
     }
 }
 
-/// SELF-10a, RULE-1d: a parking brake that is seen released though no output released it is loose, until it is known applied.
+/// SELF-10a, RULE-1d: a parking brake that is seen released though no output released it is loose, until it is known
+/// applied.
 #[must_use]
 pub fn self_10_loose_parking_brake(watch: &Watch<'_>) -> bool {
     let epb = watch.inputs.epb;
@@ -316,8 +321,8 @@ pub fn rsp_1_nothing_else_is_reported(watch: &Watch<'_>) -> bool {
     brakes.with(drive).with(steering).with(others).contains(watch.response.faults)
 }
 
-/// RSP-1c, CMD-3f: what the next cycle compares with is what went out; in level 3 its shorter time begins with it, but not if help
-/// was called already; what was found stays.
+/// RSP-1c, CMD-3f: what the next cycle compares with is what went out; in level 3 its shorter time begins with it, but
+/// not if help was called already; what was found stays.
 #[must_use]
 pub fn rsp_1_compared_with_what_went_out(watch: &Watch<'_>) -> bool {
     let (new, next, out) = (watch.new, watch.next, watch.outputs);
@@ -353,7 +358,8 @@ fn kept<T: Copy + PartialEq>(
         && next.asked == asks.or(new.asked)
 }
 
-/// SELF-10a: gear, parking brake and contactors: what went out is asked for until it is reached; a release that went out is no loose brake.
+/// SELF-10a: gear, parking brake and contactors: what went out is asked for until it is reached; a release that went
+/// out is no loose brake.
 #[must_use]
 pub fn self_10_positions_asked_for(watch: &Watch<'_>) -> bool {
     let (inputs, out) = (watch.inputs, watch.outputs);

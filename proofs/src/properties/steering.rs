@@ -70,8 +70,8 @@ fn reach(cycle: &Cycle<'_>) -> i32 {
     i32::try_from(reach.min(32_767)).unwrap_or(32_767)
 }
 
-/// STR-1b to STR-1d: the angles that are permitted: what the rate can reach of the window that the speed and the measured
-/// angle allow; outside of that window it goes back to it as fast as the rate permits, and never jumps.
+/// STR-1b to STR-1d: the angles that are permitted: what the rate can reach of the window that the speed and the
+/// measured angle allow; outside of that window it goes back to it as fast as the rate permits, and never jumps.
 fn angles(cycle: &Cycle<'_>) -> (i32, i32) {
     let limit = cycle.config.steering_angle.0.get(row(cycle)).map_or(0, |angle| i32::from(angle.raw()));
     let measured = steering_angle(cycle).map_or(start(cycle), i32::from);
@@ -90,9 +90,10 @@ fn fade(cycle: &Cycle<'_>, outwards: bool) -> u8 {
     u8::try_from(share).unwrap_or(u8::MAX)
 }
 
-/// STR-2a, STR-2e, STR-2g, STR-2h, SELF-5g: automatic steering is permitted exactly outside of the safe state, not taken over, not astray,
-/// with the power steering known ready or active, wheel and hands known, within the speed range, and while it acts already or a
-/// mode is granted, the cruise switch not known off. Leave is none of the conditions.
+/// STR-2a, STR-2e, STR-2g, STR-2h, SELF-5g: automatic steering is permitted exactly outside of the safe state, not
+/// taken over, not astray, with the power steering known ready or active, wheel and hands known, within the speed
+/// range, and while it acts already or a mode is granted, the cruise switch not known off. Leave is none of the
+/// conditions.
 #[must_use]
 pub fn str_2_permitted_exactly(cycle: &Cycle<'_>) -> bool {
     let (inputs, config) = (cycle.inputs, cycle.config);
@@ -108,8 +109,9 @@ pub fn str_2_permitted_exactly(cycle: &Cycle<'_>) -> bool {
     cycle.envelope.steering.enable.is_ok() == may
 }
 
-/// STR-1b, STR-1c, STR-1d, STR-1g, STR-2f, SELF-11e, CMD-3f: while it acts, the angle is what is asked for, up to exactly what window and
-/// rate permit; not permitted, not asked for or lost, it stays where it is, as far as they permit that.
+/// STR-1b, STR-1c, STR-1d, STR-1g, STR-2f, SELF-11e, CMD-3f: while it acts, the angle is what is asked for, up to
+/// exactly what window and rate permit; not permitted, not asked for or lost, it stays where it is, as far as they
+/// permit that.
 #[must_use]
 pub fn str_1_angle_is_exactly_bounded(cycle: &Cycle<'_>) -> bool {
     let (least, most) = angles(cycle);
@@ -148,8 +150,8 @@ pub fn str_1_overlay_below_takeover(cycle: &Cycle<'_>) -> bool {
         && implies(bound < takeover && takeover.raw() > 0, out < takeover.raw().unsigned_abs())
 }
 
-/// STR-2c, STR-2d, SELF-5g, SELF-11e, E2E-2i: the overlay torque is what is asked for, up to what the fade permits either way from the last one; not
-/// permitted, not asked for or lost, it fades towards 0.
+/// STR-2c, STR-2d, SELF-5g, SELF-11e, E2E-2i: the overlay torque is what is asked for, up to what the fade permits
+/// either way from the last one; not permitted, not asked for or lost, it fades towards 0.
 #[must_use]
 pub fn str_2_overlay_fades(cycle: &Cycle<'_>) -> bool {
     let full = i32::from(cycle.config.steering_overlay.raw()).max(0);
@@ -165,8 +167,8 @@ pub fn str_2_overlay_fades(cycle: &Cycle<'_>) -> bool {
     i32::from(cycle.outputs.steering.overlay.raw()) == wanted.max(least).min(most)
 }
 
-/// STR-2c, STR-2d, SELF-5g, SELF-11e, E2E-2i: the weight fades in towards what is asked for and never drops; not permitted, not asked for or lost, it
-/// fades out, and automatic steering acts until it has.
+/// STR-2c, STR-2d, SELF-5g, SELF-11e, E2E-2i: the weight fades in towards what is asked for and never drops; not
+/// permitted, not asked for or lost, it fades out, and automatic steering acts until it has.
 #[must_use]
 pub fn str_2_weight_fades(cycle: &Cycle<'_>) -> bool {
     let before = cycle.old.steering.weight.raw().min(100);
@@ -198,8 +200,8 @@ fn kept(cycle: &Cycle<'_>) -> u16 {
     u16::try_from(least.unsigned_abs().max(most.unsigned_abs())).unwrap_or(u16::MAX)
 }
 
-/// STR-2a: a torque of the driver's hands beyond the takeover torque, either way, for its time ends automatic steering; what
-/// is not known, or less, begins the time anew.
+/// STR-2a: a torque of the driver's hands beyond the takeover torque, either way, for its time ends automatic steering;
+/// what is not known, or less, begins the time anew.
 #[must_use]
 pub fn str_2_takeover_ends(cycle: &Cycle<'_>) -> bool {
     let (old, new) = (&cycle.old.steering, &cycle.new.steering);
@@ -213,8 +215,8 @@ pub fn str_2_takeover_ends(cycle: &Cycle<'_>) -> bool {
         && cycle.next.steering.takeover == new.takeover
 }
 
-/// STR-2a, RSP-1k, SEAT-9a: what was taken over, or did not follow with somebody to hand the wheel to, acts again only when
-/// a usable command asks for nothing first; a lost command is no such evidence.
+/// STR-2a, RSP-1k, SEAT-9a: what was taken over, or did not follow with somebody to hand the wheel to, acts again only
+/// when a usable command asks for nothing first; a lost command is no such evidence.
 #[must_use]
 pub fn str_2_asked_for_anew(cycle: &Cycle<'_>) -> bool {
     let (old, new, next) = (&cycle.old.steering, &cycle.new.steering, &cycle.next.steering);
