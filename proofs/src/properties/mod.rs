@@ -11,12 +11,15 @@ pub mod command;
 pub mod configuration;
 pub mod drive;
 pub mod flow;
+pub mod follow;
 pub mod gear;
 pub mod high_voltage;
 pub mod leave;
 pub mod mitigation;
+pub mod mode;
 pub mod parking;
 pub mod recovery;
+pub mod response;
 pub mod retarder;
 pub mod rules;
 pub mod seat;
@@ -25,8 +28,9 @@ pub mod steering;
 pub mod supervisor;
 pub mod vetting;
 pub mod warnings;
-pub(crate) mod facts;
 mod known;
+mod reading;
+pub(crate) mod facts;
 
 use supervisor_core::{
     Commands, Config, Decided, Envelope, EpbRequest, Evidence, Faults, Inputs, Millis, Outputs, Percent, Response,
@@ -92,6 +96,7 @@ pub const ALL: &[&[Property]] = &[
     warnings::ALL,
     body::ALL,
     drive::ALL,
+    mode::ALL,
     steering::ALL,
     supervisor::ALL,
     clock::ALL,
