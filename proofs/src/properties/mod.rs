@@ -4,9 +4,11 @@
 pub mod boot;
 pub mod brake;
 pub mod drive;
+pub mod fusion;
 pub mod gear;
 pub mod high_voltage;
 pub mod mitigation;
+pub mod object;
 pub mod parking;
 pub mod seat;
 pub mod steering;
