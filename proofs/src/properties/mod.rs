@@ -4,12 +4,14 @@
 pub mod boot;
 pub mod brake;
 pub mod drive;
+pub mod frame;
 pub mod fusion;
 pub mod gear;
 pub mod high_voltage;
 pub mod mitigation;
 pub mod object;
 pub mod parking;
+pub mod qualifier;
 pub mod seat;
 pub mod steering;
 pub mod supervisor;
