@@ -7,7 +7,7 @@ use proptest::sample::select;
 use supervisor_core::{Config, Inputs, Millis, Outputs, Status};
 use supervisor_proofs::properties::frame::{
     ALL, Arrival, cmd_1a_closed_table, cmd_2c_held_up_to_its_timeout, cmd_3c_outputs_come_back, cmd_3c_written_is_read,
-    e2e_1b_flipped_bit_is_found, e2e_1b_intact_exactly, e2e_1b_sealed_is_intact,
+    cmd_3e_counters_run_on, e2e_1b_flipped_bit_is_found, e2e_1b_intact_exactly, e2e_1b_sealed_is_intact,
     e2e_1d_redundant_known_only_while_agreed, e2e_1i_brake_switches, e2e_1i_our_own_signals, e2e_1i_wheel_speed,
 };
 use supervisor_proofs::properties::qualifier::{
@@ -15,7 +15,7 @@ use supervisor_proofs::properties::qualifier::{
     e2e_1j_further_good_frames_go_on, rule_1a_quality_is_one_of_five, rule_5a_failure_counts_at_once,
 };
 use supervisor_wire::inspect::{Link, Values, write};
-use supervisor_wire::{Destination, Frame, Message, Protection, Qualifier, Source, Timing};
+use supervisor_wire::{Destination, Frame, Message, Protection, Qualifier, Sender, Source, Timing};
 
 const CASES: u32 = 40_000;
 const PROTECTIONS: [Protection; 4] = [Protection::Profile11, Protection::Tsc1, Protection::Xbr, Protection::Bare];
@@ -131,7 +131,7 @@ proptest! {
         assert!(cmd_1a_closed_table(message.id()) && cmd_1a_closed_table(message.id_from(Source::Supervisor)));
     }
 
-    /// CMD-3c, CMD-1d: whatever is written is read again, of every message that is no part of a list.
+    /// CMD-3c: whatever is written is read again, of every message that is no part of a list.
     #[test]
     fn written_is_read(bytes in vec(any::<u8>(), BYTES)) {
         let values = values(&bytes);
@@ -140,6 +140,19 @@ proptest! {
             let listed = matches!(message.destination(), Destination::Radar(_) | Destination::Camera(_));
             assert!(listed || cmd_3c_written_is_read(message, &values.unwrap_or(Values::NONE)), "{message:?}");
             assert!(listed || cmd_3c_outputs_come_back(message, &values.unwrap_or(Values::NONE)), "{message:?}");
+        }
+    }
+
+    /// CMD-3e: counters of the outputs, cycle by cycle.
+    #[test]
+    fn counters_run_on(bytes in vec(any::<u8>(), BYTES), spans in vec((0..120_u32, any::<bool>()), 1..20)) {
+        let outputs = [Outputs::NEUTRAL, values(&bytes).map_or(Outputs::NEUTRAL, |values| values.outputs)];
+        let (mut sender, mut time) = (Sender::new(), Millis::ZERO);
+        for (span, which) in spans {
+            time = Millis::new(time.raw() + span);
+            let outputs = &outputs[usize::from(which)];
+            assert!(cmd_3e_counters_run_on(&sender, time, outputs));
+            sender.encode_outputs(time, outputs, &mut |_| ());
         }
     }
 

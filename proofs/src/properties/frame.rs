@@ -4,11 +4,11 @@
 //! after every history.
 
 use supervisor_core::{
-    AngleDeciDeg, Cause, Command, Config, DecelMs2Q11, Evidence, Inputs, Millis, Pedal250, Percent, RetarderMode, Seat,
-    Signal, SpeedKmhQ8, kernel,
+    AngleDeciDeg, Cause, Command, Config, DecelMs2Q11, Evidence, Inputs, Millis, Outputs, Pedal250, Percent,
+    RetarderMode, Seat, Signal, SpeedKmhQ8, kernel,
 };
 use supervisor_wire::inspect::{Link, Values, identify, read, write};
-use supervisor_wire::{Destination, Fault, Frame, Message, Protection, Source};
+use supervisor_wire::{Destination, Fault, Frame, Message, Protection, Sender, Source};
 
 use super::implies;
 
@@ -269,12 +269,13 @@ pub fn e2e_1i_brake_switches(arrival: &Arrival) -> bool {
         && implies(taken, arrival.new.inputs == Inputs { asr, abs, ebs_red, ebs_amber, ..arrival.old.inputs })
 }
 
-/// CMD-3c, CMD-1d: whatever is written, with whatever values, is read again, and as what was written.
+/// CMD-3c: whatever is written into a protected message, with whatever values, is read again, and as what was written.
 #[must_use]
 pub fn cmd_3c_written_is_read(message: Message, values: &Values) -> bool {
     let payload = write(message, values);
     let mut again = Values::NONE;
-    read(message, payload, &mut again).is_ok() && write(message, &again) == payload
+    let same = read(message, payload, &mut again).is_ok() && write(message, &again) == payload;
+    same || message.protection() == Protection::Bare
 }
 
 /// CMD-3c: an output comes out as it went in, up to what a field of J1939 holds: a torque of at most 125 %, a deceleration of at most 15.687 m/s².
@@ -329,6 +330,33 @@ pub fn cmd_1a_closed_table(id: u32) -> bool {
             !Message::ALL.iter().any(|message| is(*message, Source::MainController) || is(*message, Source::Supervisor))
         }
     }
+}
+
+/// CMD-3e, SELF-8a: in every cycle, whatever is sent, each output of a message has the counter after its last one; the first has 0. None goes out
+/// twice, and a message that does not go out keeps its counter.
+#[must_use]
+pub fn cmd_3e_counters_run_on(before: &Sender, now: Millis, outputs: &Outputs) -> bool {
+    let mut after = before.clone();
+    let mut sent = [None; Message::COUNT];
+    let mut good = true;
+    after.encode_outputs(now, outputs, &mut |frame| {
+        for message in Message::ALL.iter().copied().filter(|message| message.id_from(Source::Supervisor) == frame.id) {
+            let place = &mut sent[message.number()];
+            let counter = message.protection().open(frame.id, frame.payload()).ok().flatten();
+            good &= place.is_none() && counter.is_some() && message.is_command();
+            *place = counter;
+        }
+    });
+    let goes_on = |message: Message| {
+        let last = before.counter(message);
+        let next = last.map_or(0, |last| u16::from(last) + 1);
+        let next = if next < u16::from(message.protection().counts()) { next } else { 0 };
+        match sent[message.number()] {
+            Some(counter) => u16::from(counter) == next && after.counter(message) == Some(counter),
+            None => after.counter(message) == last,
+        }
+    };
+    good && Message::ALL.iter().copied().all(goes_on)
 }
 
 /// E2E-1d, RULE-6c: two sources agree within their bound, or the value is unknown.

@@ -83,21 +83,23 @@ fn magnitude(offset: OffsetCm) -> i32 {
 /// value can make overflow; what is not closing has no T.
 #[must_use]
 pub fn ttc_1_products_are_exact(distance: DistanceCm, closing: ClosingCmS, limit: Millis) -> bool {
-    let way = i64::from(distance.raw()) * 1000;
-    let reach = i64::from(limit.raw()) * i64::from(closing.raw());
-    let closes = closing.raw() > 0;
-    reached(distance, closing, limit) == (closes && way < reach)
-        && reached_or_equal(distance, closing, limit) == (closes && way <= reach)
+    let Ok(speed) = u16::try_from(closing.raw()) else {
+        return !reached(distance, closing, limit) && !reached_or_equal(distance, closing, limit);
+    };
+    let way = u64::from(distance.raw()) * 1000;
+    let reach = u64::from(limit.raw()) * u64::from(speed);
+    reached(distance, closing, limit) == (way < reach)
+        && reached_or_equal(distance, closing, limit) == (speed > 0 && way <= reach)
 }
 
 /// FUS-1a: where the object is now, rounded to the nearer centimetre: the way that it closed in its age is taken off; never below
 /// 0, at most 655.35 m. An age beyond 32.767 s counts as that.
 #[must_use]
 pub fn fus_1a_moved_is_exact(distance: DistanceCm, closing: ClosingCmS, age: Millis) -> bool {
-    let whole = i64::from(age.raw().min(32_767));
-    let way = (i64::from(distance.raw()) * 1000 - i64::from(closing.raw()) * whole).max(0);
-    let now = i64::from(moved(distance, closing, age, Millis::ZERO).raw());
-    now * 1000 <= way && (way < (now + 1) * 1000 || now == 65_535)
+    let whole = i32::from(u16::try_from(age.raw()).unwrap_or(u16::MAX).min(32_767));
+    let way = (i32::from(distance.raw()) * 1000 - i32::from(closing.raw()) * whole).max(0);
+    let now = i32::from(moved(distance, closing, age, Millis::ZERO).raw());
+    now * 1000 <= way && (way - now * 1000 < 1000 || now == 65_535)
 }
 
 /// MIT-1a, MIT-2a, MIT-3a, TTC-1b, MIT-8c: the level of a valid obstacle is that of its time to collision and of nothing else: T < 4.4 s,

@@ -54,6 +54,13 @@ impl Link {
         Self { message, ..self }
     }
 
+    /// The same state, with these times.
+    #[cfg(kani)]
+    #[must_use]
+    pub const fn timed(self, timing: Timing) -> Self {
+        Self { timing, ..self }
+    }
+
     /// Checks a frame and takes its signals over into `values`; how many frames before it are lost.
     ///
     /// RULE-5a: if anything is wrong with it, the message counts as failed from now on.
