@@ -13,4 +13,30 @@ pub(super) fn configured() -> Config {
     // The build took the words from a sealed configuration: a proof must not end well where they are none.
     assert!(config.is_some());
     config.unwrap_or(Config::DEFAULT)
+//! The configurations that the proofs of perception are made for.
+
+use supervisor_core::Config;
+
+/// The configured limits: those of the table. A proof that names them holds for them, and is to be made again for others.
+    Config::DEFAULT
+}
+
+/// Any value, of every limit that the assessment of an object reads; the others, which it does not, are as configured.
+pub(super) fn any_limits() -> Config {
+    Config {
+        level_ttc: kani::any(),
+        level_decel: kani::any(),
+        forward_ttc: kani::any(),
+        forward_offset: kani::any(),
+        pedestrian_ttc: kani::any(),
+        pedestrian_offset: kani::any(),
+        corridor: kani::any(),
+        gap_margin: kani::any(),
+        consistent_updates: kani::any(),
+        object_age: kani::any(),
+        emergency_ttc: kani::any(),
+        mitigable_ttc: kani::any(),
+        severe_decel: kani::any(),
+        ..configured()
+    }
 }
