@@ -13,12 +13,6 @@ pub(super) fn configured() -> Config {
     // The build took the words from a sealed configuration: a proof must not end well where they are none.
     assert!(config.is_some());
     config.unwrap_or(Config::DEFAULT)
-//! The configurations that the proofs of perception are made for.
-
-use supervisor_core::Config;
-
-/// The configured limits: those of the table. A proof that names them holds for them, and is to be made again for others.
-    Config::DEFAULT
 }
 
 /// Any value, of every limit that the assessment of an object reads; the others, which it does not, are as configured.

@@ -1,6 +1,10 @@
 //! The properties: each safety requirement once, as a plain function over one cycle, named by its id. `true` means that
 //! the requirement holds. Kani calls them on any cycle, proptest, the explorer and cargo-fuzz on those they reach.
 
+pub(crate) mod facts;
+mod known;
+mod reading;
+
 pub mod auxiliaries;
 pub mod body;
 pub mod boot;
@@ -32,9 +36,6 @@ pub mod steering;
 pub mod supervisor;
 pub mod vetting;
 pub mod warnings;
-mod known;
-mod reading;
-pub(crate) mod facts;
 
 use supervisor_core::{
     Commands, Config, Decided, Envelope, EpbRequest, Evidence, Faults, Inputs, Millis, Outputs, Percent, Response,
