@@ -55,11 +55,20 @@ fn every_property_is_listed() {
         include_str!("../src/properties/high_voltage.rs"),
         include_str!("../src/properties/gear.rs"),
         include_str!("../src/properties/mitigation.rs"),
+        include_str!("../src/properties/leave.rs"),
         include_str!("../src/properties/brake.rs"),
+        include_str!("../src/properties/cap.rs"),
+        include_str!("../src/properties/split.rs"),
+        include_str!("../src/properties/retarder.rs"),
+        include_str!("../src/properties/warnings.rs"),
+        include_str!("../src/properties/body.rs"),
         include_str!("../src/properties/drive.rs"),
         include_str!("../src/properties/mode.rs"),
         include_str!("../src/properties/steering.rs"),
         include_str!("../src/properties/supervisor.rs"),
+        include_str!("../src/properties/clock.rs"),
+        include_str!("../src/properties/auxiliaries.rs"),
+        include_str!("../src/properties/rules.rs"),
     ];
     let stated = files.iter().flat_map(|file| file.lines());
     let stated =

@@ -7,7 +7,7 @@ use super::{Cycle, sits};
 
 /// SELF-3: what this cycle adds to the timers.
 pub(crate) fn ticks(cycle: &Cycle<'_>) -> Ticks {
-    cycle.old.clock.advance(cycle.now, cycle.config).1
+    Ticks { permission: cycle.permitting(), safety: cycle.obliging(), fault: cycle.clock_fault() }
 }
 
 /// One track of a pedal, where it is known and plausible: 250 × 0.4 % is all of it.
@@ -28,7 +28,7 @@ fn any_pressed(tracks: [Signal<Pedal250>; 2], config: &Config) -> bool {
 
 /// The accelerator.
 pub(crate) fn accelerator(cycle: &Cycle<'_>) -> Option<u8> {
-    travel(cycle.inputs.accelerator, cycle.config)
+    cycle.accelerator().map(Pedal250::raw)
 }
 
 /// The brake pedal is known released: by its switch and by both tracks.
