@@ -13,10 +13,10 @@ use supervisor_core::{Follow, Millis};
 const CALLS: usize = 16;
 
 /// The calls of one function so far: their arguments and results, in so many words.
-struct Calls<const A: usize, const R: usize> {
+struct Calls<const A: usize> {
     count: AtomicUsize,
     arguments: [[AtomicU64; A]; CALLS],
-    results: [[AtomicU64; R]; CALLS],
+    results: [[AtomicU64; 2]; CALLS],
 }
 
 /// Whether these are the words that were stored.
@@ -34,18 +34,18 @@ fn store<const N: usize>(slots: &[AtomicU64; N], words: [u64; N]) {
     }
 }
 
-impl<const A: usize, const R: usize> Calls<A, R> {
+impl<const A: usize> Calls<A> {
     const fn new() -> Self {
         Self {
             count: AtomicUsize::new(0),
             arguments: [const { [const { AtomicU64::new(0) }; A] }; CALLS],
-            results: [const { [const { AtomicU64::new(0) }; R] }; CALLS],
+            results: [const { [const { AtomicU64::new(0) }; 2] }; CALLS],
         }
     }
 
     /// `result` may be any, but is the one of before where the arguments are those of before: the first of them is not
     /// narrowed.
-    fn agree(&self, arguments: [u64; A], result: [u64; R]) {
+    fn agree(&self, arguments: [u64; A], result: [u64; 2]) {
         let count = self.count.load(Ordering::Relaxed);
         assert!(count < CALLS);
         for call in 0..CALLS {
@@ -60,35 +60,35 @@ impl<const A: usize, const R: usize> Calls<A, R> {
 
 /// For [`kernel::portion`](supervisor_core::kernel::portion).
 pub(super) fn portion(per_second: u16, elapsed: u32, rest: u16) -> (u32, u16) {
-    static SEEN: Calls<1, 1> = Calls::new();
+    static SEEN: Calls<1> = Calls::new();
     let (whole, left): (u32, u16) = kani::any();
     let arguments = u64::from(per_second) << 48 | u64::from(elapsed) << 16 | u64::from(rest);
-    SEEN.agree([arguments], [u64::from(whole) << 16 | u64::from(left)]);
+    SEEN.agree([arguments], [u64::from(whole), u64::from(left)]);
     (whole, left)
 }
 
 /// For [`kernel::between_down`](supervisor_core::kernel::between_down).
 pub(super) fn between_down(here: u8, next: u8, rest: u8, step: u8) -> u8 {
-    static SEEN: Calls<1, 1> = Calls::new();
+    static SEEN: Calls<1> = Calls::new();
     let result: u8 = kani::any();
-    SEEN.agree([u64::from(u32::from_be_bytes([here, next, rest, step]))], [u64::from(result)]);
+    SEEN.agree([u64::from(u32::from_be_bytes([here, next, rest, step]))], [u64::from(result), 0]);
     result
 }
 
 /// For [`kernel::within_percent`](supervisor_core::kernel::within_percent).
 pub(super) fn within_percent(difference: u16, percent: u8, of: u16) -> bool {
-    static SEEN: Calls<1, 1> = Calls::new();
+    static SEEN: Calls<1> = Calls::new();
     let result: bool = kani::any();
     let arguments = u64::from(difference) << 24 | u64::from(percent) << 16 | u64::from(of);
-    SEEN.agree([arguments], [u64::from(result)]);
+    SEEN.agree([arguments], [u64::from(result), 0]);
     result
 }
 
 /// For [`kernel::share_down`](supervisor_core::kernel::share_down).
 pub(super) fn share_down(value: u16, percent: u8) -> u16 {
-    static SEEN: Calls<1, 1> = Calls::new();
+    static SEEN: Calls<1> = Calls::new();
     let result: u16 = kani::any();
-    SEEN.agree([u64::from(value) << 8 | u64::from(percent)], [u64::from(result)]);
+    SEEN.agree([u64::from(value) << 8 | u64::from(percent)], [u64::from(result), 0]);
     result
 }
 
@@ -101,7 +101,7 @@ fn words(follow: Follow) -> [u64; 2] {
 /// For [`Follow::advance`]: without a target it begins anew, with nothing measured it stays (both proved by
 /// `rsp_1_actuator_follows`, which calls the real one); anything else may be.
 pub(super) fn follow(old: Follow, target: u16, measured: Option<u16>, error: u8, elapsed: Millis) -> Follow {
-    static SEEN: Calls<4, 2> = Calls::new();
+    static SEEN: Calls<4> = Calls::new();
     let result: Follow = kani::any();
     let [small, timers] = words(old);
     let told = u64::from(target) << 16 | u64::from(measured.unwrap_or(0));
