@@ -1,10 +1,18 @@
-//! The configurations that the proofs of perception are made for.
+//! The configuration of the harnesses that multiply by configured numbers: the default one, or the one for which
+//! `supervise prove --config` builds them (see `proofs/build.rs`).
 
-use supervisor_core::Config;
+use supervisor_core::{Config, Words};
 
-/// The configured limits: those of the table. A proof that names them holds for them, and is to be made again for others.
+include!(concat!(env!("OUT_DIR"), "/configured.rs"));
+
+/// The configuration to prove for.
 pub(super) fn configured() -> Config {
-    Config::DEFAULT
+    let Some(words) = WORDS else { return Config::DEFAULT };
+    let mut words = words.into_iter();
+    let config = Config::read(&mut || words.next());
+    // The build took the words from a sealed configuration: a proof must not end well where they are none.
+    assert!(config.is_some());
+    config.unwrap_or(Config::DEFAULT)
 }
 
 /// Any value of every limit that the assessment of an object compares with; times to collision, which it multiplies by, and what it
