@@ -32,7 +32,16 @@ fn ttc_1_products() {
     );
 }
 
-/// MIT-1 to MIT-3, MIT-6c, MIT-8, FUS-3, FCW-1, PCW-1: one radar object.
+/// SELF-1: the assessment of any object is total, with the real arithmetic.
+#[kani::proof]
+fn self_1_objects_are_total() {
+    let config = any_limits();
+    let radar = radar_object(&kani::any(), kani::any(), &config);
+    let camera = camera_object(&kani::any(), &config);
+    kani::cover!(radar.closing && !camera.closing, "an object in the corridor closes");
+}
+
+/// MIT-1 to MIT-3, MIT-8, FUS-3: one radar object.
 #[kani::proof]
 #[kani::unwind(17)]
 #[kani::stub(supervisor_core::kernel::nearer_than, uninterpreted::nearer_than)]
