@@ -8,6 +8,7 @@ use core::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 
 use supervisor_core::word::Word;
 use supervisor_core::{Follow, Millis};
+use supervisor_core::{ClosingCmS, DistanceCm, Millis};
 
 /// More calls than any harness makes; one more is a failed proof, not a silent one.
 const CALLS: usize = 16;
@@ -111,4 +112,30 @@ pub(super) fn follow(old: Follow, target: u16, measured: Option<u16>, error: u8,
         (_, None) => old,
         (_, Some(_)) => result,
     }
+}
+
+/// For [`kernel::nearer_than`](supervisor_core::kernel::nearer_than).
+pub(super) fn nearer_than(distance: u16, closing: u16, limit: u32) -> bool {
+    static SEEN: Calls = Calls::new();
+    SEEN.of(u64::from(limit) << 32 | u64::from(distance) << 16 | u64::from(closing)) & 1 == 1
+}
+
+/// For [`kernel::farther_than`](supervisor_core::kernel::farther_than).
+pub(super) fn farther_than(distance: u16, closing: u16, limit: u32) -> bool {
+    static SEEN: Calls = Calls::new();
+    SEEN.of(u64::from(limit) << 32 | u64::from(distance) << 16 | u64::from(closing)) & 1 == 1
+}
+
+/// For [`kernel::needed`](supervisor_core::kernel::needed).
+pub(super) fn needed(closing: u16, gap: u16) -> u16 {
+    static SEEN: Calls = Calls::new();
+    low(SEEN.of(u64::from(closing) << 16 | u64::from(gap)), 0xFFFF)
+}
+
+/// For [`moved`](supervisor_perceive::moved) to now.
+pub(super) fn moved(distance: DistanceCm, closing: ClosingCmS, age: Millis, then: Millis) -> DistanceCm {
+    static SEEN: Calls = Calls::new();
+    assert!(then == Millis::ZERO);
+    let speed = u64::from(closing.raw().cast_unsigned());
+    DistanceCm::new(low(SEEN.of(u64::from(age.raw()) << 32 | u64::from(distance.raw()) << 16 | speed), 0xFFFF))
 }
