@@ -21,8 +21,6 @@ fn phb_1_cap_and_obligation_exactly() {
     let cycle = any.cycle(&outputs);
     assert!(phb_1_cap_exactly(&cycle));
     assert!(phb_1b_full_cap_in_danger(&cycle));
-    assert!(phb_1_never_against_obligation_or_driver(&cycle));
-    assert!(trq_3b_comfort_braking_ends_at_the_pedal(&cycle));
     assert!(trq_4g_no_comfort_braking_against_the_accelerator(&cycle));
     assert!(self_11b_nothing_else_limits(&cycle));
     assert!(mit_4b_greatest_demand_exactly(&cycle));
@@ -41,4 +39,20 @@ fn phb_1_cap_and_obligation_exactly() {
     kani::cover!(obliged && bound.cap.most > any.config.brake_cap, "an obligation beyond the cap raises it");
     kani::cover!(state.brake.leave > DecelMs2Q11::ZERO && !state.is_safe_state(), "leave brakes");
     kani::cover!(obliged && state.is_safe_state() && !state.seat.leave, "the safe state brakes");
+}
+
+/// TRQ-3b, PHB-1c, PHB-1d: what the brake pedal takes away, and what it may always have.
+#[kani::proof]
+#[kani::unwind(17)]
+#[kani::solver(kissat)]
+fn trq_3b_cap_beside_the_pedal() {
+    let any = Any::new();
+    let outputs = kani::any();
+    let cycle = any.cycle(&outputs);
+    assert!(trq_3b_comfort_braking_ends_at_the_pedal(&cycle));
+    assert!(phb_1_never_against_obligation_or_driver(&cycle));
+    let (bound, switch) = (&any.decided.envelope.brake, any.inputs.brake_switch);
+    let unobliged = bound.floor.most == DecelMs2Q11::ZERO;
+    kani::cover!(unobliged && switch.is(true) && bound.cap.most > any.config.comfort_cap, "the driver brakes harder");
+    kani::cover!(unobliged && switch.is(true) && bound.cap.most < any.config.comfort_cap, "no more than the driver");
 }
