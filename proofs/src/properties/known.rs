@@ -1,8 +1,10 @@
 //! What is known in a cycle, read anew from the inputs: a property does not trust the evidence that it judges.
 
-use supervisor_core::{AngleDeciDeg, Command, Millis, Pedal250, Timer, kernel};
+use supervisor_core::{AngleDeciDeg, Millis, Pedal250, Timer};
 
 use super::Cycle;
+use super::facts::runs_while;
+pub(crate) use super::facts::{asked, has_run as lasted};
 
 /// The brake pedal (E2E-1d).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -18,16 +20,7 @@ pub(crate) enum BrakePedal {
 impl Cycle<'_> {
     /// RULE-6c: both speeds where they agree, the lower first.
     pub(crate) fn agreed_speeds(&self) -> Option<(u16, u16)> {
-        let (low, high) = self.speeds()?;
-        let difference = high.saturating_sub(low);
-        let close = difference <= self.config.speed_agree.raw();
-        (close || kernel::within_percent(difference, self.config.speed_agree_percent.raw(), high))
-            .then_some((low, high))
-    }
-
-    /// Known to stand, by the higher speed.
-    pub(crate) fn stands(&self) -> bool {
-        self.agreed_speeds().is_some_and(|(_, high)| high < self.config.standstill_speed.raw())
+        self.known_speeds().map(|(low, high)| (low.raw(), high.raw()))
     }
 
     /// The magnitude of the steering-wheel angle, where it is known and in range.
@@ -58,9 +51,7 @@ impl Cycle<'_> {
 
     /// SELF-3: what this cycle adds to a timer that ends an obligation, and to one that leads to it.
     pub(crate) fn elapsed(&self) -> (u32, u32) {
-        let passed = self.now.raw().wrapping_sub(self.old.clock.last.raw());
-        let plausible = (self.config.cycle_least.raw()..=self.config.cycle_greatest.raw()).contains(&passed);
-        if self.old.clock.started && plausible { (passed, passed) } else { (0, self.config.cycle_nominal.raw()) }
+        (self.permitting().raw(), self.obliging().raw())
     }
 }
 
@@ -72,21 +63,5 @@ pub(crate) fn magnitude(angle: AngleDeciDeg) -> u16 {
 /// END-1a: the timer stands at 0 in the first cycle in which its condition holds, then adds what passed; it is gone in
 /// the first in which the condition does not hold.
 pub(crate) fn counts(old: Timer, new: Timer, holds: bool, elapsed: u32) -> bool {
-    let before = old.elapsed().raw();
-    let due = if old.is_running() { before.saturating_add(elapsed).min(u32::MAX - 1) } else { 0 };
-    if holds { new.is_running() && new.elapsed().raw() == due } else { !new.is_running() }
-}
-
-/// Its condition has held for at least this span.
-pub(crate) fn lasted(timer: Timer, span: Millis) -> bool {
-    timer.is_running() && timer.elapsed() >= span
-}
-
-/// E2E-1g: what a channel is asked for, if its command is fresh or no older than its time-out.
-pub(crate) fn asked<T>(command: Command<T>, timeout: Millis) -> Option<T> {
-    match command {
-        Command::Fresh(value) => Some(value),
-        Command::Held(age, value) => (age <= timeout).then_some(value),
-        Command::Absent | Command::Rejected(_) => None,
-    }
+    runs_while(holds, old, new, Millis::new(elapsed))
 }

@@ -1,18 +1,35 @@
 //! The properties: each safety requirement once, as a plain function over one cycle, named by its id. `true` means that
 //! the requirement holds. Kani calls them on any cycle, proptest, the explorer and cargo-fuzz on those they reach.
 
+pub(crate) mod facts;
+mod known;
+mod reading;
+
+pub mod auxiliaries;
 pub mod body;
 pub mod boot;
 pub mod brake;
 pub mod cap;
+pub mod clock;
+pub mod command;
+pub mod configuration;
 pub mod drive;
+pub mod flow;
+pub mod follow;
+pub mod frame;
+pub mod fusion;
 pub mod gear;
 pub mod high_voltage;
-mod known;
 pub mod leave;
 pub mod mitigation;
+pub mod mode;
+pub mod object;
 pub mod parking;
+pub mod qualifier;
+pub mod recovery;
+pub mod response;
 pub mod retarder;
+pub mod rules;
 pub mod seat;
 pub mod split;
 pub mod steering;
@@ -84,8 +101,12 @@ pub const ALL: &[&[Property]] = &[
     warnings::ALL,
     body::ALL,
     drive::ALL,
+    mode::ALL,
     steering::ALL,
     supervisor::ALL,
+    clock::ALL,
+    auxiliaries::ALL,
+    rules::ALL,
 ];
 
 /// `a` ⇒ `b`.
