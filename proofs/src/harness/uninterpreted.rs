@@ -139,3 +139,15 @@ pub(super) fn moved(distance: DistanceCm, closing: ClosingCmS, age: Millis, then
     let speed = u64::from(closing.raw().cast_unsigned());
     DistanceCm::new(low(SEEN.of(u64::from(age.raw()) << 32 | u64::from(distance.raw()) << 16 | speed), 0xFFFF))
 }
+
+/// For [`kernel::share_up`](supervisor_core::kernel::share_up).
+pub(super) fn share_up(full: u16, part: u8, whole: u8) -> u16 {
+    static SEEN: Calls = Calls::new();
+    low(SEEN.of(u64::from(full) << 16 | u64::from(part) << 8 | u64::from(whole)), 0xFFFF)
+}
+
+/// For [`kernel::fallen`](supervisor_core::kernel::fallen).
+pub(super) fn fallen(per_second: u16, elapsed: u32) -> u16 {
+    static SEEN: Calls = Calls::new();
+    low(SEEN.of(u64::from(per_second) << 32 | u64::from(elapsed)), 0xFFFF)
+}
