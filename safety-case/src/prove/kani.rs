@@ -223,6 +223,8 @@ fn tests_in(log: &str) -> Vec<String> {
 fn command(root: &Path, target: &Path, configuration: Option<&Path>) -> Command {
     let mut command = Command::new("cargo");
     command.current_dir(root).args(["kani", "-p", PACKAGE, "--target-dir"]).arg(target);
+    // Kani refuses sources with a stub in any of their harnesses without it, also where another one runs.
+    command.args(["-Z", "stubbing"]);
     match configuration {
         Some(file) => command.env(CONFIGURATION, file),
         None => command.env_remove(CONFIGURATION),
@@ -236,9 +238,6 @@ fn select(command: &mut Command, harness: &Harness, options: &Options) {
     let timeout = options.timeout.unwrap_or(Duration::from_secs(harness.timeout));
     command.args(["--exact", "--harness", &harness.id(), "-Z", "unstable-options"]);
     command.args(["--solver", &solver.to_string(), "--harness-timeout", &format!("{}s", timeout.as_secs())]);
-    if harness.stubs {
-        command.args(["-Z", "stubbing"]);
-    }
     if !harness.reach_checks {
         command.arg("--no-assertion-reach-checks");
     }
