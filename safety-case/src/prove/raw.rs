@@ -51,9 +51,9 @@ impl Raw {
     /// The file cannot be written.
     pub fn save(&self, folder: &Path, harness: &str) -> Result<(), ProveError> {
         let path = place(folder, harness);
-        let mut into = GzBuilder::new().mtime(0).operating_system(255).write(Vec::new(), Compression::best());
-        let packed = into.write_all(&self.0).and_then(|()| into.finish()).map_err(|error| file(&path, error))?;
-        write(&path, &packed)
+        let mut packer = GzBuilder::new().mtime(0).operating_system(255).write(Vec::new(), Compression::best());
+        let bytes = packer.write_all(&self.0).and_then(|()| packer.finish()).map_err(|error| file(&path, error))?;
+        write(&path, &bytes)
     }
 
     /// Reads it.
