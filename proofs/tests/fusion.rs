@@ -10,7 +10,7 @@ use supervisor_perceive::{
 use supervisor_proofs::properties::fusion::{
     fus_2a_camera_box_is_clipped, fus_2a_projection_is_exact, fus_3a_a_match_needs_overlap, fus_3a_no_match_is_missed,
     fus_3a_one_to_one, fus_3a_order_is_exact, fus_3a_order_is_strict, fus_3a_overlap_is_exact,
-    fus_3a_overlap_is_symmetric, fus_3a_threshold_is_exact, fus_3a_two_match_exactly,
+    fus_3a_overlap_is_symmetric, fus_3a_threshold_by_the_sum, fus_3a_threshold_is_exact, fus_3a_two_match_exactly,
 };
 
 const CASES: u32 = 20_000;
@@ -126,6 +126,7 @@ proptest! {
     #[test]
     fn threshold_is_exact((one, share) in overlap(), (other, _) in overlap()) {
         assert!(fus_3a_threshold_is_exact(one, Percent::new(share)));
+        assert!(fus_3a_threshold_by_the_sum(one, Percent::new(share)));
         assert!(fus_3a_order_is_exact(one, other));
         assert!(fus_3a_order_is_strict(one, other));
     }

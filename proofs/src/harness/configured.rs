@@ -15,21 +15,17 @@ pub(super) fn configured() -> Config {
     config.unwrap_or(Config::DEFAULT)
 }
 
-/// Any value, of every limit that the assessment of an object reads; the others, which it does not, are as configured.
+/// Any value of every limit that the assessment of an object compares with; times to collision, which it multiplies by, and what it
+/// does not read are as configured.
 pub(super) fn any_limits() -> Config {
     Config {
-        level_ttc: kani::any(),
         level_decel: kani::any(),
-        forward_ttc: kani::any(),
         forward_offset: kani::any(),
-        pedestrian_ttc: kani::any(),
         pedestrian_offset: kani::any(),
         corridor: kani::any(),
         gap_margin: kani::any(),
         consistent_updates: kani::any(),
         object_age: kani::any(),
-        emergency_ttc: kani::any(),
-        mitigable_ttc: kani::any(),
         severe_decel: kani::any(),
         ..configured()
     }

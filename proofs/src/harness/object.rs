@@ -1,6 +1,6 @@
 //! Perception, object by object, and its fold over a list (TTC, MIT, FUS-3, FCW, PCW).
 //!
-//! Any object, class, age and limits, unless a harness says `configured`. `perceive` folds its lists by `merge`:
+//! Any object, class and age; any limits but the times to collision, unless a harness says `configured`. `perceive` folds its lists by `merge`:
 //! what is proved of one object, of the empty list, of lists of one and of the merge of *any* two assessments holds by
 //! induction for every list.
 
@@ -39,7 +39,7 @@ fn fus_1_moved() {
     kani::cover!(age > Millis::new(40_000) && closing > supervisor_core::ClosingCmS::ZERO, "very old");
 }
 
-/// TTC-1, MIT-1 to MIT-3, FUS-3: the level, what is valid, the corridor; no configuration is assumed.
+/// TTC-1, MIT-1 to MIT-3, FUS-3: the level, what is valid, the corridor.
 #[kani::proof]
 fn mit_1_level() {
     let (object, class, config): (RadarObject, Option<Class>, Config) = (kani::any(), kani::any(), any_limits());

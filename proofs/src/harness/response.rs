@@ -1,8 +1,8 @@
 //! Whether the actuators follow: the monitors on any state, inputs, outputs and configuration (RSP-1, TRQ-7, SELF-10).
 
 use supervisor_core::{
-    AngleDeciDeg, Config, DecelMs2Q11, Deviation, Evidence, Faults, Follow, Gear, Inputs, Millis, Monitors, Moves,
-    Outputs, Response, SteeredAngle, Ticks,
+    AngleDeciDeg, Config, DecelMs2Q11, Deviation, Evidence, Faults, Gear, Inputs, Millis, Monitors, Moves, Outputs,
+    Response, SteeredAngle, Ticks,
 };
 
 use super::uninterpreted;
@@ -88,48 +88,32 @@ fn rsp_1_wheel_follows() {
     kani::cover!(old.off.is_running() && new == SteeredAngle::INITIAL, "it is there");
 }
 
-/// RSP-1b, RSP-1c, RSP-1g, RSP-1i to RSP-1m, VLC-2f, RULE-1d, EPB-1b: the brakes.
+/// RSP-1a to RSP-1m, VLC-2f, TRQ-7a, TRQ-7b, RULE-1d, EPB-1b: brakes, drive, gearbox and steering.
 #[kani::proof]
 #[kani::unwind(17)]
 #[kani::stub(supervisor_core::kernel::share_down, uninterpreted::share_down)]
 #[kani::stub(supervisor_core::kernel::within_percent, uninterpreted::within_percent)]
-fn rsp_1_brakes_escalate_exactly() {
+fn rsp_1_deviations_are_found_exactly() {
     let any = AnyWatch::new();
     let watch = any.watch();
     assert!(rsp_1_brake_is_compared(&watch));
     assert!(rsp_1_brake_escalates_exactly(&watch));
+    assert!(rsp_1_abs_never_escalates(&watch));
     assert!(rsp_1_help_stays_while_unknown(&watch));
     assert!(rsp_1_overshoot(&watch));
-    kani::cover!(any.response.brake == Deviation::Persistent && !any.inputs.ebs_red.is(true), "after the retarder");
-    kani::cover!(!any.old.helps && any.new.helps && any.new.brake == Follow::INITIAL, "the limits do not reach it");
-    kani::cover!(any.response.faults.contains(Faults::BRAKE_OVERSHOOT), "an overshoot");
-}
-
-/// RSP-1l: ABS at work never escalates.
-#[kani::proof]
-#[kani::unwind(17)]
-fn rsp_1_abs_at_work_is_no_fault() {
-    let any = AnyWatch::new();
-    assert!(rsp_1_abs_never_escalates(&any.watch()));
-    kani::cover!(any.inputs.abs.is(true) && any.old.helps && any.old.service.raw() > 2_048, "ABS begins to work");
-}
-
-/// RSP-1a, RSP-1d, RSP-1e, RSP-1f, RSP-1i, RSP-1j, TRQ-7a, TRQ-7b: drive, gearbox and steering.
-#[kani::proof]
-#[kani::unwind(17)]
-#[kani::stub(supervisor_core::kernel::share_down, uninterpreted::share_down)]
-#[kani::stub(supervisor_core::kernel::within_percent, uninterpreted::within_percent)]
-fn trq_7_drive_gear_and_steering() {
-    let any = AnyWatch::new();
-    let watch = any.watch();
     assert!(rsp_1_drive(&watch));
     assert!(trq_7_excess_is_found_exactly(&watch));
     assert!(rsp_1_gear(&watch));
     assert!(rsp_1_steering(&watch));
-    kani::cover!(!any.old.disobeys && any.new.disobeys, "the drive gives too much");
-    kani::cover!(any.response.torque == Deviation::Persistent, "and still does");
-    kani::cover!(any.response.steering, "the steering does not follow");
-    kani::cover!(any.response.faults.contains(Faults::GEAR_RESPONSE), "the gear does not follow");
+    let (old, new, response) = (&any.old, &any.new, &any.response);
+    kani::cover!(response.brake == Deviation::Persistent && !any.inputs.ebs_red.is(true), "after the retarder");
+    kani::cover!(!old.helps && new.helps && !new.short.is_running(), "the limits do not reach it");
+    kani::cover!(any.inputs.abs.is(true) && old.helps && old.service.raw() > 2_048, "ABS begins to work");
+    kani::cover!(response.faults.contains(Faults::BRAKE_OVERSHOOT), "an overshoot");
+    kani::cover!(!old.disobeys && new.disobeys, "the drive gives too much");
+    kani::cover!(response.torque == Deviation::Persistent, "and still does");
+    kani::cover!(response.steering, "the steering does not follow");
+    kani::cover!(response.faults.contains(Faults::GEAR_RESPONSE), "the gear does not follow");
 }
 
 /// SELF-10a to SELF-10c, RULE-1d, RSP-1c: what moves unasked, and what the next cycle compares with.

@@ -232,11 +232,8 @@ pub fn cmd_2c_held_up_to_its_timeout(arrival: &Arrival, timeout: Millis, later: 
 /// E2E-1h: TSC1 pauses while nothing is asked for.
 fn asks_nothing(arrival: &Arrival) -> bool {
     let (drive, retarder) = (arrival.new.outputs.drive, arrival.new.outputs.retarder);
-    match arrival.message {
-        Message::DriveTorque => !drive.active && drive.torque == Percent::ZERO,
-        Message::Retarder => retarder.mode == RetarderMode::Off,
-        _ => false,
-    }
+    let (to_drive, to_retarder) = (arrival.message == Message::DriveTorque, arrival.message == Message::Retarder);
+    to_drive && !drive.active && drive.torque == Percent::ZERO || to_retarder && retarder.mode == RetarderMode::Off
 }
 
 /// E2E-1e, E2E-1f, E2E-1i: the speed of CCVS1 by its upper byte: up to 0xFA valid, then out of range, error and not available; of all
@@ -298,26 +295,19 @@ pub fn e2e_1i_our_own_signals(arrival: &Arrival) -> bool {
     let raw = u16::from_le_bytes([b2, b3]);
     let inputs = &arrival.new.inputs;
     let not_available = Cause::NotAvailable;
-    let refused = arrival.result.is_err();
-    match arrival.message {
-        Message::Seat1 => match b2 & 3 {
-            0 => refused || inputs.seat[0] == Signal::Known(Seat::Vacant),
-            1 => refused || inputs.seat[0] == Signal::Known(Seat::Occupied),
-            2 => refused,
-            _ => refused || inputs.seat[0] == Signal::Unknown(not_available),
-        },
-        Message::DriveStatus => {
-            let speed = SpeedKmhQ8::new(raw);
-            let signal = if raw == u16::MAX { Signal::Unknown(not_available) } else { Signal::Known(speed) };
-            refused || inputs.motor_speed == signal
-        }
-        Message::SteeringStatus => {
-            let angle = AngleDeciDeg::new(raw.cast_signed());
-            let signal = if raw == 0x7FFF { Signal::Unknown(not_available) } else { Signal::Known(angle) };
-            refused || inputs.steering_angle == signal
-        }
-        _ => true,
-    }
+    let seat = [
+        Some(Signal::Known(Seat::Vacant)),
+        Some(Signal::Known(Seat::Occupied)),
+        None,
+        Some(Signal::Unknown(not_available)),
+    ][usize::from(b2 & 3)];
+    let speed = if raw == u16::MAX { Signal::Unknown(not_available) } else { Signal::Known(SpeedKmhQ8::new(raw)) };
+    let angle = AngleDeciDeg::new(raw.cast_signed());
+    let angle = if raw == 0x7FFF { Signal::Unknown(not_available) } else { Signal::Known(angle) };
+    let taken = |message| arrival.message == message && arrival.result.is_ok();
+    implies(taken(Message::Seat1), seat == Some(inputs.seat[0]))
+        && implies(taken(Message::DriveStatus), inputs.motor_speed == speed)
+        && implies(taken(Message::SteeringStatus), inputs.steering_angle == angle)
 }
 
 /// CMD-1a, SELF-10b: an identifier is that of one message from one sender, or of none and refused.

@@ -83,14 +83,14 @@ pub fn fus_2a_camera_box_is_clipped(pixels: PixelBox, config: &Config) -> bool {
 }
 
 /// Whether every edge lies in an image of at most 4096 px, as every configuration in its range has it.
-fn in_an_image(outline: &Outline) -> bool {
+fn in_an_image(outline: Outline) -> bool {
     outline.iter().all(|span| span.least <= span.most && span.most <= 4096 * STEPS)
 }
 
 /// FUS-3a: two boxes share their intersection, and nothing where they only touch; the order of the two does not matter.
 #[must_use]
 pub fn fus_3a_overlap_is_exact(first: Outline, second: Outline) -> bool {
-    if !in_an_image(&first) || !in_an_image(&second) {
+    if !in_an_image(first) || !in_an_image(second) {
         return true;
     }
     let common = |one: Span, other: Span| {
@@ -121,6 +121,13 @@ pub fn fus_3a_threshold_is_exact(overlap: Overlap, share: Percent) -> bool {
     )
 }
 
+/// FUS-3a: the same by the sum of both areas, of which union is what the intersection leaves: p/100 of the union are p/(100 + p) of the sum.
+#[must_use]
+pub fn fus_3a_threshold_by_the_sum(overlap: Overlap, share: Percent) -> bool {
+    let (shared, sum, share_raw) = (u64::from(overlap.shared), u64::from(overlap.sum), u64::from(share.raw()));
+    overlap.exceeds(Overlap::threshold(share)) == (shared * (share_raw + 100) > sum * share_raw)
+}
+
 /// FUS-3a: of two overlaps the greater is that of the greater intersection over union, in exact products.
 #[must_use]
 pub fn fus_3a_order_is_exact(one: Overlap, other: Overlap) -> bool {
@@ -135,7 +142,8 @@ pub fn fus_3a_order_is_exact(one: Overlap, other: Overlap) -> bool {
 /// FUS-3a: no overlap exceeds itself, and of two at most one exceeds the other.
 #[must_use]
 pub fn fus_3a_order_is_strict(one: Overlap, other: Overlap) -> bool {
-    !one.exceeds(one) && !(one.exceeds(other) && other.exceeds(one))
+    let both = one.exceeds(other) && other.exceeds(one);
+    !one.exceeds(one) && !both
 }
 
 /// The class that a matched object carries.

@@ -97,7 +97,7 @@ pub fn rule_5a_failure_counts_at_once(before: Qualifier, timing: Timing, now: Mi
     at_once
         && implies(was.is_ok(), known_by(failed, now, timing))
         && implies(
-            restarts && !was.is_ok() && was != Err(Cause::EndToEnd),
+            restarts && was.is_err() && was != Err(Cause::EndToEnd),
             !known_by(failed, now, timing) && !known_by(failed, later, timing),
         )
 }
