@@ -174,7 +174,7 @@ mod tests {
             PLAIN.replace("pub fn", "#[inline] pub fn"),
             PLAIN.replace("pub fn", "#[kani::unwind(3)] pub fn"),
             PLAIN.replace("pub fn", "#[kani::unwind(4)] pub fn"),
-            PLAIN.replace("{ x", "{ {x}").replace('}', "}"),
+            PLAIN.replace("{ x>=-1", "{ (x>=-1)"),
         ] {
             assert_ne!(plain, of(&other)?, "{other}");
         }

@@ -50,8 +50,8 @@ impl Bench {
         for folder in ["terms", "observe", "core", "perceive", "wire"] {
             bench.write(&format!("root/supervisor/{folder}/src/lib.rs"), "//! Nothing.\n")?;
         }
-        let functions: String = names.iter().map(|name| format!("#[kani::proof]\nfn {name}() {{}}\n")).collect();
-        bench.write("root/proofs/src/harness/m.rs", &functions)?;
+        let functions: Vec<String> = names.iter().map(|name| format!("#[kani::proof]\nfn {name}() {{}}\n")).collect();
+        bench.write("root/proofs/src/harness/m.rs", &functions.concat())?;
         bench.list(names, |_| String::new())?;
         let readme = "<!-- proofs: written by `supervise prove --table --write` -->\n<!-- end of proofs -->\n";
         bench.write("root/proofs/README.md", readme)?;
