@@ -19,7 +19,7 @@ pub const SOURCES: [&str; 6] = [
     "proofs/src",
 ];
 
-/// SHA-256 of bytes, in hexadecimal.
+/// The digest of bytes, in hexadecimal.
 #[must_use]
 pub fn sha256(bytes: &[u8]) -> String {
     format!("{:x}", Sha256::digest(bytes))
