@@ -18,12 +18,6 @@ use crate::properties::warnings::warnings_obliged_exactly;
 #[kani::proof]
 #[kani::unwind(17)]
 #[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent)]
-#[kani::stub(supervisor_core::kernel::portion, crate::harness::uninterpreted::portion)]
-#[kani::stub(supervisor_core::kernel::between_down, crate::harness::uninterpreted::between_down)]
-#[kani::stub(supervisor_core::kernel::between_up, crate::harness::uninterpreted::between_up)]
-#[kani::stub(supervisor_core::kernel::share_down, crate::harness::uninterpreted::share_down)]
-#[kani::stub(supervisor_core::kernel::share_up, crate::harness::uninterpreted::share_up)]
-#[kani::stub(supervisor_core::kernel::fallen, crate::harness::uninterpreted::fallen)]
 fn vlc_2_bounds_of_the_road() {
     let any = Any::new();
     let envelope = &any.decided.envelope;
@@ -49,12 +43,6 @@ fn vlc_2_bounds_of_the_road() {
 #[kani::proof]
 #[kani::unwind(17)]
 #[kani::stub(supervisor_core::kernel::fallen, crate::harness::uninterpreted::fallen)]
-#[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent)]
-#[kani::stub(supervisor_core::kernel::portion, crate::harness::uninterpreted::portion)]
-#[kani::stub(supervisor_core::kernel::between_down, crate::harness::uninterpreted::between_down)]
-#[kani::stub(supervisor_core::kernel::between_up, crate::harness::uninterpreted::between_up)]
-#[kani::stub(supervisor_core::kernel::share_down, crate::harness::uninterpreted::share_down)]
-#[kani::stub(supervisor_core::kernel::share_up, crate::harness::uninterpreted::share_up)]
 fn e2e_2_lost_request_and_record() {
     let mut any = Any::new();
     let outputs = kani::any();
