@@ -60,6 +60,7 @@ impl Around {
             faults: self.faults,
             outputs,
             next: &self.next,
+            agreed: None,
         }
     }
 }

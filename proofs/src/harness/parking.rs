@@ -56,6 +56,9 @@ fn seat_4_epb_applied_in_leave() {
 #[kani::proof]
 #[kani::unwind(17)]
 #[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent)]
+#[kani::stub(supervisor_core::kernel::share_up, crate::harness::uninterpreted::share_up)]
+#[kani::stub(supervisor_core::kernel::fallen, crate::harness::uninterpreted::fallen)]
+#[kani::stub(supervisor_core::kernel::between_up, crate::harness::uninterpreted::between_up)]
 fn seat_4_parking_exactly() {
     let any = Any::new();
     let envelope = &any.decided.envelope;
