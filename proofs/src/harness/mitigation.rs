@@ -13,6 +13,13 @@ use crate::properties::warnings::fcw_1_pcw_1_begin_and_end_exactly;
 /// MIT-1 to MIT-8, FCW-1, PCW-1: every level begins and ends exactly by its own conditions, each of them reachable.
 #[kani::proof]
 #[kani::unwind(17)]
+#[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent)]
+#[kani::stub(supervisor_core::kernel::portion, crate::harness::uninterpreted::portion)]
+#[kani::stub(supervisor_core::kernel::between_down, crate::harness::uninterpreted::between_down)]
+#[kani::stub(supervisor_core::kernel::between_up, crate::harness::uninterpreted::between_up)]
+#[kani::stub(supervisor_core::kernel::share_down, crate::harness::uninterpreted::share_down)]
+#[kani::stub(supervisor_core::kernel::share_up, crate::harness::uninterpreted::share_up)]
+#[kani::stub(supervisor_core::kernel::fallen, crate::harness::uninterpreted::fallen)]
 fn mit_1_levels_begin_and_end_exactly() {
     let any = Any::new();
     let outputs = kani::any();

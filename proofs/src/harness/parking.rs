@@ -23,6 +23,13 @@ impl Any {
 /// SEAT-5a.
 #[kani::proof]
 #[kani::unwind(17)]
+#[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent)]
+#[kani::stub(supervisor_core::kernel::portion, crate::harness::uninterpreted::portion)]
+#[kani::stub(supervisor_core::kernel::between_down, crate::harness::uninterpreted::between_down)]
+#[kani::stub(supervisor_core::kernel::between_up, crate::harness::uninterpreted::between_up)]
+#[kani::stub(supervisor_core::kernel::share_down, crate::harness::uninterpreted::share_down)]
+#[kani::stub(supervisor_core::kernel::share_up, crate::harness::uninterpreted::share_up)]
+#[kani::stub(supervisor_core::kernel::fallen, crate::harness::uninterpreted::fallen)]
 fn seat_5_epb_never_released_without_confirmed_seat() {
     let any = Any::new();
     let outputs = any.parking();
@@ -41,6 +48,13 @@ fn seat_5_epb_never_released_without_confirmed_seat() {
 /// SEAT-4.
 #[kani::proof]
 #[kani::unwind(17)]
+#[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent)]
+#[kani::stub(supervisor_core::kernel::portion, crate::harness::uninterpreted::portion)]
+#[kani::stub(supervisor_core::kernel::between_down, crate::harness::uninterpreted::between_down)]
+#[kani::stub(supervisor_core::kernel::between_up, crate::harness::uninterpreted::between_up)]
+#[kani::stub(supervisor_core::kernel::share_down, crate::harness::uninterpreted::share_down)]
+#[kani::stub(supervisor_core::kernel::share_up, crate::harness::uninterpreted::share_up)]
+#[kani::stub(supervisor_core::kernel::fallen, crate::harness::uninterpreted::fallen)]
 fn seat_4_epb_applied_in_leave() {
     let any = Any::new();
     let outputs = any.parking();
@@ -55,6 +69,13 @@ fn seat_4_epb_applied_in_leave() {
 /// set, the chain, an apply that is not confirmed, the driver's switch, the safe state, exactly; what must pass.
 #[kani::proof]
 #[kani::unwind(17)]
+#[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent)]
+#[kani::stub(supervisor_core::kernel::portion, crate::harness::uninterpreted::portion)]
+#[kani::stub(supervisor_core::kernel::between_down, crate::harness::uninterpreted::between_down)]
+#[kani::stub(supervisor_core::kernel::between_up, crate::harness::uninterpreted::between_up)]
+#[kani::stub(supervisor_core::kernel::share_down, crate::harness::uninterpreted::share_down)]
+#[kani::stub(supervisor_core::kernel::share_up, crate::harness::uninterpreted::share_up)]
+#[kani::stub(supervisor_core::kernel::fallen, crate::harness::uninterpreted::fallen)]
 fn seat_4_parking_exactly() {
     let any = Any::new();
     let envelope = &any.decided.envelope;

@@ -17,6 +17,13 @@ use crate::properties::warnings::warnings_obliged_exactly;
 /// VLC-2, VLC-3, BODY-1, RET-1: the electric limit, what is told, the lamps and the retarder.
 #[kani::proof]
 #[kani::unwind(17)]
+#[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent)]
+#[kani::stub(supervisor_core::kernel::portion, crate::harness::uninterpreted::portion)]
+#[kani::stub(supervisor_core::kernel::between_down, crate::harness::uninterpreted::between_down)]
+#[kani::stub(supervisor_core::kernel::between_up, crate::harness::uninterpreted::between_up)]
+#[kani::stub(supervisor_core::kernel::share_down, crate::harness::uninterpreted::share_down)]
+#[kani::stub(supervisor_core::kernel::share_up, crate::harness::uninterpreted::share_up)]
+#[kani::stub(supervisor_core::kernel::fallen, crate::harness::uninterpreted::fallen)]
 fn vlc_2_bounds_of_the_road() {
     let any = Any::new();
     let envelope = &any.decided.envelope;
@@ -42,6 +49,12 @@ fn vlc_2_bounds_of_the_road() {
 #[kani::proof]
 #[kani::unwind(17)]
 #[kani::stub(supervisor_core::kernel::fallen, crate::harness::uninterpreted::fallen)]
+#[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent)]
+#[kani::stub(supervisor_core::kernel::portion, crate::harness::uninterpreted::portion)]
+#[kani::stub(supervisor_core::kernel::between_down, crate::harness::uninterpreted::between_down)]
+#[kani::stub(supervisor_core::kernel::between_up, crate::harness::uninterpreted::between_up)]
+#[kani::stub(supervisor_core::kernel::share_down, crate::harness::uninterpreted::share_down)]
+#[kani::stub(supervisor_core::kernel::share_up, crate::harness::uninterpreted::share_up)]
 fn e2e_2_lost_request_and_record() {
     let mut any = Any::new();
     let outputs = kani::any();

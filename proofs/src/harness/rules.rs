@@ -13,6 +13,13 @@ use crate::properties::rules::{
 /// RULE-1, RULE-6, CMD-5b: every refusal has a reason; unknown begins nothing, ends nothing, permits nothing; which of the two speeds counts.
 #[kani::proof]
 #[kani::unwind(17)]
+#[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent)]
+#[kani::stub(supervisor_core::kernel::portion, crate::harness::uninterpreted::portion)]
+#[kani::stub(supervisor_core::kernel::between_down, crate::harness::uninterpreted::between_down)]
+#[kani::stub(supervisor_core::kernel::between_up, crate::harness::uninterpreted::between_up)]
+#[kani::stub(supervisor_core::kernel::share_down, crate::harness::uninterpreted::share_down)]
+#[kani::stub(supervisor_core::kernel::share_up, crate::harness::uninterpreted::share_up)]
+#[kani::stub(supervisor_core::kernel::fallen, crate::harness::uninterpreted::fallen)]
 fn rule_1_unknown() {
     let any = Any::new();
     let outputs: Outputs = kani::any();
@@ -35,6 +42,13 @@ fn rule_1_unknown() {
 /// CMD-1b, CMD-3f, CMD-7a: fields in range, rates from the output, commands are no evidence.
 #[kani::proof]
 #[kani::unwind(17)]
+#[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent)]
+#[kani::stub(supervisor_core::kernel::portion, crate::harness::uninterpreted::portion)]
+#[kani::stub(supervisor_core::kernel::between_down, crate::harness::uninterpreted::between_down)]
+#[kani::stub(supervisor_core::kernel::between_up, crate::harness::uninterpreted::between_up)]
+#[kani::stub(supervisor_core::kernel::share_down, crate::harness::uninterpreted::share_down)]
+#[kani::stub(supervisor_core::kernel::share_up, crate::harness::uninterpreted::share_up)]
+#[kani::stub(supervisor_core::kernel::fallen, crate::harness::uninterpreted::fallen)]
 fn cmd_7_no_evidence() {
     let mut any = Any::new();
     let (envelope, commands) = (&any.decided.envelope, &any.commands);
