@@ -24,6 +24,7 @@ use crate::properties::warnings::warnings_obliged_exactly;
 #[kani::stub(supervisor_core::kernel::share_down, crate::harness::uninterpreted::share_down)]
 #[kani::stub(supervisor_core::kernel::share_up, crate::harness::uninterpreted::share_up)]
 #[kani::stub(supervisor_core::kernel::fallen, crate::harness::uninterpreted::fallen)]
+#[kani::stub(supervisor_core::kernel::fits, crate::harness::uninterpreted::fits)]
 fn vlc_2_bounds_of_the_road() {
     let any = Any::new();
     let envelope = &any.decided.envelope;
@@ -55,6 +56,7 @@ fn vlc_2_bounds_of_the_road() {
 #[kani::stub(supervisor_core::kernel::between_up, crate::harness::uninterpreted::between_up)]
 #[kani::stub(supervisor_core::kernel::share_down, crate::harness::uninterpreted::share_down)]
 #[kani::stub(supervisor_core::kernel::share_up, crate::harness::uninterpreted::share_up)]
+#[kani::stub(supervisor_core::kernel::together, crate::harness::uninterpreted::with_retarder)]
 fn e2e_2_lost_request_and_record() {
     let mut any = Any::new();
     let outputs = kani::any();
