@@ -14,13 +14,6 @@ use crate::properties::parking::epb_1_parking_brake_helps;
 /// which it begins.
 #[kani::proof]
 #[kani::unwind(17)]
-#[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent)]
-#[kani::stub(supervisor_core::kernel::portion, crate::harness::uninterpreted::portion)]
-#[kani::stub(supervisor_core::kernel::between_down, crate::harness::uninterpreted::between_down)]
-#[kani::stub(supervisor_core::kernel::between_up, crate::harness::uninterpreted::between_up)]
-#[kani::stub(supervisor_core::kernel::share_down, crate::harness::uninterpreted::share_down)]
-#[kani::stub(supervisor_core::kernel::share_up, crate::harness::uninterpreted::share_up)]
-#[kani::stub(supervisor_core::kernel::fallen, crate::harness::uninterpreted::fallen)]
 fn mit_4_brake_never_below_obligation() {
     let any = Any::new();
     let outputs = Outputs { brake: vet_brake(&any.decided.envelope, kani::any()).0, ..kani::any() };
@@ -35,13 +28,6 @@ fn mit_4_brake_never_below_obligation() {
 /// RSP-1, TRQ-7, SELF-10, EPB-1, VLC-1: an actuator that does not follow calls the next stronger means.
 #[kani::proof]
 #[kani::unwind(17)]
-#[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent)]
-#[kani::stub(supervisor_core::kernel::portion, crate::harness::uninterpreted::portion)]
-#[kani::stub(supervisor_core::kernel::between_down, crate::harness::uninterpreted::between_down)]
-#[kani::stub(supervisor_core::kernel::between_up, crate::harness::uninterpreted::between_up)]
-#[kani::stub(supervisor_core::kernel::share_down, crate::harness::uninterpreted::share_down)]
-#[kani::stub(supervisor_core::kernel::share_up, crate::harness::uninterpreted::share_up)]
-#[kani::stub(supervisor_core::kernel::fallen, crate::harness::uninterpreted::fallen)]
 fn rsp_1_next_stronger_means() {
     let any = Any::new();
     let envelope = &any.decided.envelope;

@@ -40,10 +40,6 @@ impl Any {
 #[kani::stub(supervisor_core::kernel::portion, crate::harness::uninterpreted::portion)]
 #[kani::stub(supervisor_core::kernel::between_down, crate::harness::uninterpreted::between_down)]
 #[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent)]
-#[kani::stub(supervisor_core::kernel::between_up, crate::harness::uninterpreted::between_up)]
-#[kani::stub(supervisor_core::kernel::share_down, crate::harness::uninterpreted::share_down)]
-#[kani::stub(supervisor_core::kernel::share_up, crate::harness::uninterpreted::share_up)]
-#[kani::stub(supervisor_core::kernel::fallen, crate::harness::uninterpreted::fallen)]
 fn self_11_torque_up_to_what_is_permitted() {
     let any = Any::new();
     let outputs = any.driving();
@@ -69,10 +65,6 @@ fn self_11_torque_up_to_what_is_permitted() {
 #[kani::stub(supervisor_core::kernel::portion, crate::harness::uninterpreted::portion)]
 #[kani::stub(supervisor_core::kernel::share_down, crate::harness::uninterpreted::share_down)]
 #[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent)]
-#[kani::stub(supervisor_core::kernel::between_down, crate::harness::uninterpreted::between_down)]
-#[kani::stub(supervisor_core::kernel::between_up, crate::harness::uninterpreted::between_up)]
-#[kani::stub(supervisor_core::kernel::share_up, crate::harness::uninterpreted::share_up)]
-#[kani::stub(supervisor_core::kernel::fallen, crate::harness::uninterpreted::fallen)]
 fn cmd_3_next_cycle_counts_from_the_output() {
     let mut any = Any::new();
     let outputs = Outputs { steering: vet_steering(&any.decided.envelope, any.commands.steering).0, ..any.driving() };

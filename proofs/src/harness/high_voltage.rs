@@ -23,13 +23,6 @@ impl Any {
 /// SEAT-7, SEAT-11, HV-1.
 #[kani::proof]
 #[kani::unwind(17)]
-#[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent)]
-#[kani::stub(supervisor_core::kernel::portion, crate::harness::uninterpreted::portion)]
-#[kani::stub(supervisor_core::kernel::between_down, crate::harness::uninterpreted::between_down)]
-#[kani::stub(supervisor_core::kernel::between_up, crate::harness::uninterpreted::between_up)]
-#[kani::stub(supervisor_core::kernel::share_down, crate::harness::uninterpreted::share_down)]
-#[kani::stub(supervisor_core::kernel::share_up, crate::harness::uninterpreted::share_up)]
-#[kani::stub(supervisor_core::kernel::fallen, crate::harness::uninterpreted::fallen)]
 fn seat_7_k1_never_before_k4() {
     let any = Any::new();
     let outputs = any.contactors();
@@ -50,13 +43,6 @@ fn seat_7_k1_never_before_k4() {
 /// SEAT-8, HV-1.
 #[kani::proof]
 #[kani::unwind(17)]
-#[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent)]
-#[kani::stub(supervisor_core::kernel::portion, crate::harness::uninterpreted::portion)]
-#[kani::stub(supervisor_core::kernel::between_down, crate::harness::uninterpreted::between_down)]
-#[kani::stub(supervisor_core::kernel::between_up, crate::harness::uninterpreted::between_up)]
-#[kani::stub(supervisor_core::kernel::share_down, crate::harness::uninterpreted::share_down)]
-#[kani::stub(supervisor_core::kernel::share_up, crate::harness::uninterpreted::share_up)]
-#[kani::stub(supervisor_core::kernel::fallen, crate::harness::uninterpreted::fallen)]
 fn seat_8_high_voltage_only_by_restart() {
     let any = Any::new();
     let outputs = any.contactors();
@@ -72,12 +58,6 @@ fn seat_8_high_voltage_only_by_restart() {
 #[kani::proof]
 #[kani::unwind(17)]
 #[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent)]
-#[kani::stub(supervisor_core::kernel::portion, crate::harness::uninterpreted::portion)]
-#[kani::stub(supervisor_core::kernel::between_down, crate::harness::uninterpreted::between_down)]
-#[kani::stub(supervisor_core::kernel::between_up, crate::harness::uninterpreted::between_up)]
-#[kani::stub(supervisor_core::kernel::share_down, crate::harness::uninterpreted::share_down)]
-#[kani::stub(supervisor_core::kernel::share_up, crate::harness::uninterpreted::share_up)]
-#[kani::stub(supervisor_core::kernel::fallen, crate::harness::uninterpreted::fallen)]
 fn seat_7_high_voltage_exactly() {
     let any = Any::new();
     let outputs = any.contactors();

@@ -13,11 +13,6 @@ use crate::properties::mode::{
 #[kani::unwind(17)]
 #[kani::stub(supervisor_core::kernel::portion, crate::harness::uninterpreted::portion)]
 #[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent)]
-#[kani::stub(supervisor_core::kernel::between_down, crate::harness::uninterpreted::between_down)]
-#[kani::stub(supervisor_core::kernel::between_up, crate::harness::uninterpreted::between_up)]
-#[kani::stub(supervisor_core::kernel::share_down, crate::harness::uninterpreted::share_down)]
-#[kani::stub(supervisor_core::kernel::share_up, crate::harness::uninterpreted::share_up)]
-#[kani::stub(supervisor_core::kernel::fallen, crate::harness::uninterpreted::fallen)]
 fn mode_1_begins_is_suspended_and_ends() {
     let any = Any::new();
     let outputs = any.driving();
@@ -38,13 +33,6 @@ fn mode_1_begins_is_suspended_and_ends() {
 /// SPD-1c: whatever the target speed, nothing else that goes out depends on it, the brake least of all.
 #[kani::proof]
 #[kani::unwind(17)]
-#[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent)]
-#[kani::stub(supervisor_core::kernel::portion, crate::harness::uninterpreted::portion)]
-#[kani::stub(supervisor_core::kernel::between_down, crate::harness::uninterpreted::between_down)]
-#[kani::stub(supervisor_core::kernel::between_up, crate::harness::uninterpreted::between_up)]
-#[kani::stub(supervisor_core::kernel::share_down, crate::harness::uninterpreted::share_down)]
-#[kani::stub(supervisor_core::kernel::share_up, crate::harness::uninterpreted::share_up)]
-#[kani::stub(supervisor_core::kernel::fallen, crate::harness::uninterpreted::fallen)]
 fn spd_1_target_speed_brakes_nothing() {
     let (envelope, commands): (supervisor_core::Envelope, Commands) = (kani::any(), kani::any());
     let (one, _) = vet(&envelope, &commands);

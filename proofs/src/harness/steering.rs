@@ -14,10 +14,6 @@ use crate::properties::steering::{
 #[kani::stub(supervisor_core::kernel::portion, crate::harness::uninterpreted::portion)]
 #[kani::stub(supervisor_core::kernel::share_down, crate::harness::uninterpreted::share_down)]
 #[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent)]
-#[kani::stub(supervisor_core::kernel::between_down, crate::harness::uninterpreted::between_down)]
-#[kani::stub(supervisor_core::kernel::between_up, crate::harness::uninterpreted::between_up)]
-#[kani::stub(supervisor_core::kernel::share_up, crate::harness::uninterpreted::share_up)]
-#[kani::stub(supervisor_core::kernel::fallen, crate::harness::uninterpreted::fallen)]
 fn str_1_steering_is_exactly_bounded() {
     let any = Any::new();
     let steering = vet_steering(&any.decided.envelope, any.commands.steering).0;

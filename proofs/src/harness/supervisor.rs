@@ -49,13 +49,6 @@ fn self_9_boot_leaves_nothing_permitted() {
 /// SELF-5, SEAT-2, SEAT-6, MIT-5: the safe state; no torque and no gear against an obligation.
 #[kani::proof]
 #[kani::unwind(17)]
-#[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent)]
-#[kani::stub(supervisor_core::kernel::portion, crate::harness::uninterpreted::portion)]
-#[kani::stub(supervisor_core::kernel::between_down, crate::harness::uninterpreted::between_down)]
-#[kani::stub(supervisor_core::kernel::between_up, crate::harness::uninterpreted::between_up)]
-#[kani::stub(supervisor_core::kernel::share_down, crate::harness::uninterpreted::share_down)]
-#[kani::stub(supervisor_core::kernel::share_up, crate::harness::uninterpreted::share_up)]
-#[kani::stub(supervisor_core::kernel::fallen, crate::harness::uninterpreted::fallen)]
 fn self_5_safe_state_and_no_torque() {
     let any = Any::new();
     let envelope = &any.decided.envelope;
@@ -102,12 +95,6 @@ fn seat_4_record_is_total_and_keeps_the_latch() {
 #[kani::proof]
 #[kani::unwind(17)]
 #[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent)]
-#[kani::stub(supervisor_core::kernel::portion, crate::harness::uninterpreted::portion)]
-#[kani::stub(supervisor_core::kernel::between_down, crate::harness::uninterpreted::between_down)]
-#[kani::stub(supervisor_core::kernel::between_up, crate::harness::uninterpreted::between_up)]
-#[kani::stub(supervisor_core::kernel::share_down, crate::harness::uninterpreted::share_down)]
-#[kani::stub(supervisor_core::kernel::share_up, crate::harness::uninterpreted::share_up)]
-#[kani::stub(supervisor_core::kernel::fallen, crate::harness::uninterpreted::fallen)]
 fn self_5_safe_state_brakes_and_fades() {
     let any = Any::new();
     let envelope = &any.decided.envelope;

@@ -75,15 +75,6 @@ pub(super) fn between_down(here: u8, next: u8, rest: u8, step: u8) -> u8 {
     result
 }
 
-/// For [`kernel::between_up`](supervisor_core::kernel::between_up).
-pub(super) fn between_up(here: u16, next: u16, rest: u16, step: u16) -> u16 {
-    static SEEN: Calls<1> = Calls::new();
-    let result: u16 = kani::any();
-    let arguments = u64::from(here) << 48 | u64::from(next) << 32 | u64::from(rest) << 16 | u64::from(step);
-    SEEN.agree([arguments], [u64::from(result), 0]);
-    result
-}
-
 /// For [`kernel::within_percent`](supervisor_core::kernel::within_percent).
 pub(super) fn within_percent(difference: u16, percent: u8, of: u16) -> bool {
     static SEEN: Calls<1> = Calls::new();
