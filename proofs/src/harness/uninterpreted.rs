@@ -177,3 +177,20 @@ pub(super) fn fallen(per_second: u16, elapsed: u32) -> u16 {
     SEEN.agree([u64::from(per_second) << 32 | u64::from(elapsed)], [u64::from(result), 0]);
     result
 }
+
+/// For [`kernel::together`](supervisor_core::kernel::together).
+pub(super) fn with_retarder(service: u16, each: u16, percents: u8) -> u16 {
+    static SEEN: Calls<1> = Calls::new();
+    let result: u16 = kani::any();
+    let arguments = u64::from(service) << 32 | u64::from(each) << 16 | u64::from(percents);
+    SEEN.agree([arguments], [u64::from(result), 0]);
+    result
+}
+
+/// For [`kernel::fits`](supervisor_core::kernel::fits).
+pub(super) fn fits(room: u16, each: u16) -> u8 {
+    static SEEN: Calls<1> = Calls::new();
+    let result: u8 = kani::any();
+    SEEN.agree([u64::from(room) << 16 | u64::from(each)], [u64::from(result), 0]);
+    result
+}
