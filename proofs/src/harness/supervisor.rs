@@ -94,6 +94,7 @@ fn seat_4_record_is_total_and_keeps_the_latch() {
 /// SELF-5d, SELF-5g: how the safe state brakes, and that steering fades.
 #[kani::proof]
 #[kani::unwind(17)]
+#[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent)]
 fn self_5_safe_state_brakes_and_fades() {
     let any = Any::new();
     let envelope = &any.decided.envelope;
