@@ -4,6 +4,6 @@
 //! discharge exists yet. To run: `cargo creusot` with the Creusot release that belongs to creusot-std 0.14.
 #![no_std]
 
-/// TTC-1.
-#[path = "../../../supervisor/perceive/src/kernel.rs"]
+/// The arithmetic of the shipped crates.
+#[path = "../../../supervisor/terms/src/kernel.rs"]
 pub mod kernel;

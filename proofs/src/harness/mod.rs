@@ -1,10 +1,12 @@
 //! Kani harnesses. Names begin with the requirement; each ends in covers that show it is not vacuous.
 
-mod cycle;
-mod kernel;
+mod brake;
+mod high_voltage;
+mod parking;
+mod supervisor;
 mod vetting;
 
-use supervisor_core::{Config, Decided, Inputs, Millis, Outputs, Response, State, Threat, decide};
+use supervisor_core::{Commands, Config, Decided, Inputs, Millis, Outputs, Response, State, Threat, decide, record};
 
 use crate::properties::Cycle;
 
@@ -13,9 +15,13 @@ struct Any {
     old: State,
     now: Millis,
     inputs: Inputs,
+    threat: Threat,
     response: Response,
-    decided: Decided,
+    commands: Commands,
     config: Config,
+    decided: Decided,
+    /// What `record` makes of it: any state, unless the harness records.
+    next: State,
 }
 
 impl Any {
@@ -24,19 +30,28 @@ impl Any {
             (kani::any(), kani::any(), kani::any(), kani::any());
         let (response, config): (Response, Config) = (kani::any(), kani::any());
         let decided = decide(&old, now, &inputs, &threat, &response, &config);
-        Self { old, now, inputs, response, decided, config }
+        let (commands, next) = (kani::any(), kani::any());
+        Self { old, now, inputs, threat, response, commands, config, decided, next }
+    }
+    /// Records these outputs as `step` does.
+    fn record(&mut self, outputs: &Outputs) {
+        self.next = record(&self.decided, outputs, &self.commands, &self.config);
     }
     /// The cycle with these outputs.
     fn cycle<'a>(&'a self, outputs: &'a Outputs) -> Cycle<'a> {
         Cycle {
             old: &self.old,
-            new: &self.decided.state,
             now: self.now,
             inputs: &self.inputs,
+            threat: &self.threat,
             response: &self.response,
-            envelope: &self.decided.envelope,
-            outputs,
+            commands: &self.commands,
             config: &self.config,
+            new: &self.decided.state,
+            envelope: &self.decided.envelope,
+            faults: self.decided.faults,
+            outputs,
+            next: &self.next,
         }
     }
 }

@@ -10,7 +10,7 @@ use supervisor_core::{
 };
 
 use super::Any;
-use crate::properties::{
+use crate::properties::vetting::{
     self_2_brake_sound, self_2_contactors_sound, self_2_drive_sound, self_2_epb_sound, self_2_gear_sound,
     self_2_retarder_sound, self_2_steering_sound, self_2_warnings_sound, went_unchanged,
 };

@@ -1,7 +1,6 @@
-//! What must hold in every cycle: the properties of the package, one table.
+//! What must hold in every cycle: the registry of the package.
 
-use supervisor_core::{Commands, Decision};
-use supervisor_proofs::properties::{self, Cycle};
+use supervisor_proofs::properties::{ALL, Cycle, Witness, vetting};
 
 /// A property of a cycle.
 #[derive(Clone, Copy)]
@@ -9,57 +8,47 @@ pub struct Check {
     /// Its name.
     pub name: &'static str,
     /// Whether it holds.
-    pub holds: fn(&Cycle, &Commands, &Decision) -> bool,
+    pub holds: Holds,
 }
 
-macro_rules! of_cycle {
-    ($($name:ident),* $(,)?) => { &[$(Check { name: stringify!($name), holds: |cycle, _, _| cycle.$name() },)*] };
+/// How it is asked.
+#[derive(Clone, Copy)]
+pub enum Holds {
+    /// Of a cycle.
+    Cycle(fn(&Cycle<'_>) -> bool),
+    /// Of a cycle and its verdicts.
+    Witness(fn(&Witness) -> bool),
 }
 
-/// Properties of a cycle.
-const CYCLE: &[Check] = of_cycle!(
-    seat_5a_no_release_without_confirmed_seat,
-    seat_5_confirmation_counts_real_time,
-    seat_5_release_after_leave_needs_all,
-    seat_5_pedal_chain_is_honest,
-    seat_4_apply_in_leave,
-    seat_4_latch_holds,
-    seat_7_k1_after_k4,
-    hv_1_k4_opens_without_load,
-    seat_7_shutdown_happens,
-    seat_7_k1_follows,
-    seat_7_committed,
-    seat_11_ten_minutes_are_real,
-    seat_8_close_needs_restart,
-    seat_8_restart_in_order,
-    no_torque_under_obligation,
-    seat_6_neutral,
-    brake_never_below_obligation,
-    self_5_safe_state,
-    self_7_latched,
-    self_7_quiet_counts_real_time,
-    self_6_flow_fault_is_the_safe_state,
-    self_7_contactor_fault_closes_nothing,
-    trq_7_excess_is_answered,
-    self_10_bypass_is_answered,
-    rsp_1_retarder_helps,
-    epb_1_parking_brake_helps,
-    vlc_1_mode_not_configured_commands_nothing,
-);
+impl Check {
+    /// Whether it holds of a cycle that ran.
+    pub fn holds(&self, witness: &Witness, cycle: &Cycle<'_>) -> bool {
+        match self.holds {
+            Holds::Cycle(holds) => holds(cycle),
+            Holds::Witness(holds) => holds(witness),
+        }
+    }
+}
 
-/// Properties of envelope, commands and outputs.
+/// Properties of the vector of outputs: the registry has those of cycles only.
 const VECTOR: &[Check] = &[
-    Check { name: "self_2_feasible", holds: |cycle, _, _| cycle.envelope.is_feasible() },
-    Check { name: "self_2_sound", holds: |cycle, _, _| properties::self_2_sound(cycle.envelope, cycle.outputs) },
+    Check { name: "self_2_feasible", holds: Holds::Witness(|witness| witness.cycle().envelope.is_feasible()) },
+    Check {
+        name: "self_2_sound",
+        holds: Holds::Witness(|witness| vetting::self_2_sound(witness.cycle().envelope, &witness.outputs)),
+    },
     Check {
         name: "self_2_transparent",
-        holds: |cycle, commands, decision| {
-            properties::self_2_transparent(cycle.envelope, commands, cycle.outputs, &decision.verdicts)
-        },
+        holds: Holds::Witness(|witness| {
+            let cycle = witness.cycle();
+            vetting::self_2_transparent(cycle.envelope, cycle.commands, cycle.outputs, &witness.verdicts)
+        }),
     },
 ];
 
 /// Every property.
-pub fn all() -> impl Iterator<Item = Check> {
-    CYCLE.iter().chain(VECTOR).copied()
+pub fn every() -> Vec<Check> {
+    let registry = ALL.iter().copied().flatten();
+    let of_cycle = registry.map(|property| Check { name: property.name, holds: Holds::Cycle(property.holds) });
+    of_cycle.chain(VECTOR.iter().copied()).collect()
 }

@@ -5,7 +5,7 @@ use std::fmt::Debug;
 use std::sync::atomic::{AtomicU32, Ordering};
 
 use supervisor_core::{
-    Config, Direction, ExitReason, Faults, LastKey, Mode, Pending, PedalChain, Restart, Stage, State,
+    Config, Direction, ExitReason, Faults, LastKey, Mode, PedalChain, Pending, Restart, Stage, State,
 };
 
 use crate::identity::timers;

@@ -51,8 +51,7 @@ pub fn watches<'a>(state: &'a mut State, config: &Config) -> [Watch<'a>; 30] {
                 forward: _,
                 pedestrian: _,
             },
-        drive:
-            Drive { mode: _, exit: _, notice, torque: _, automated: _, rest: _, armed: _, release_needed: _, hill },
+        drive: Drive { mode: _, exit: _, notice, torque: _, automated: _, rest: _, armed: _, release_needed: _, hill },
         brake: Brake { total: _, retarder: _, lost, retarder_lost, slow: _, leave: _, lamps: _ },
         gear: _,
         steering:
@@ -182,9 +181,10 @@ pub enum Moment {
     LongMidway,
 }
 
-/// `fine` ticks after its begin and after each span, and as many before each span, are worth a look of their own.
+/// `fine` cycles before each span and as many from its begin and from each span on are worth a look of their own.
 pub fn moment(normalised: &State, fine: u32, tick: Millis, config: &Config) -> Moment {
-    let near = tick.raw().saturating_mul(fine);
+    let before = tick.raw().saturating_mul(fine);
+    let after = tick.raw().saturating_mul(fine.saturating_sub(1));
     let mut state = *normalised;
     let (mut short, mut eve) = (false, false);
     for Watch { timer, spans, .. } in watches(&mut state, config) {
@@ -193,8 +193,8 @@ pub fn moment(normalised: &State, fine: u32, tick: Millis, config: &Config) -> M
             continue;
         }
         let elapsed = timer.elapsed().raw();
-        let begun = |since: u32| elapsed >= since && elapsed <= since.saturating_add(near);
-        let due = |span: Millis| elapsed < span.raw() && elapsed.saturating_add(near) >= span.raw();
+        let begun = |since: u32| elapsed >= since && elapsed <= since.saturating_add(after);
+        let due = |span: Millis| elapsed < span.raw() && elapsed.saturating_add(before) >= span.raw();
         if spans.into_iter().any(due) {
             eve |= last < LONG;
         } else if !begun(0) && !spans.into_iter().any(|span| begun(span.raw())) {

@@ -5,13 +5,12 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use stateright::{Model, Property};
 use supervisor_core::{
-    Commands, Config, Decided, Decision, Evidence, Flow, Inputs, Millis, Record, ResetCause, Response, Sealed, State,
-    StateImage, Threat, decide, step,
+    Commands, Config, Decision, Flow, Inputs, Millis, Record, ResetCause, Sealed, State, StateImage, Threat, step,
 };
 use supervisor_perceive::Scene;
-use supervisor_proofs::properties::Cycle;
+use supervisor_proofs::properties::{Cycle, Witness};
 
-use crate::checks::{self, Check};
+use crate::checks::Check;
 use crate::coverage::Coverage;
 use crate::identity::{Key, Moment, key, moment, normalised};
 use crate::plant::Plant;
@@ -110,7 +109,7 @@ pub enum Broken {
     Check(usize),
     /// A promise.
     Promise(usize),
-    /// `decide` gave another envelope than `step`, or `step` left no state.
+    /// The parts of `step` gave something else than `step`, or it left no state.
     Step,
     /// Two states of one key differ in what goes out, or in the key of the next state.
     Identity,
@@ -155,15 +154,6 @@ pub struct Ran {
     pub next: Node,
 }
 
-/// The shipped step, and what it went through.
-struct Stepped {
-    decision: Decision,
-    old: State,
-    decided: Decided,
-    response: Response,
-    next: Option<State>,
-}
-
 /// An exploration, what was counted and what was seen.
 pub struct Explorer {
     /// What is explored.
@@ -186,16 +176,12 @@ impl Explorer {
         Node { state, plant, waited: [0; PROMISES], broken: None, key }
     }
 
-    /// The shipped step; then the shipped parts again, for what lies between them.
-    fn step(&self, state: &State, now: Millis, inputs: &Inputs, vector: &Vector) -> Stepped {
-        let (sealed, config) = (&self.of.sealed, &self.of.config);
+    /// The shipped step: what it decides, and the state it leaves.
+    fn step(&self, state: &State, now: Millis, inputs: &Inputs, vector: &Vector) -> (Decision, Option<State>) {
         let mut image = StateImage::encode(state);
-        let decision = step(&mut image, sealed, Flow::PERCEIVED, now, inputs, &vector.threat, &vector.commands);
-        let (_, ticks) = state.clock.advance(now, config);
-        let (monitors, response) = state.monitors.advance(&Evidence::gather(inputs, config), inputs, ticks, config);
-        let old = State { monitors, ..*state };
-        let decided = decide(&old, now, inputs, &vector.threat, &response, config);
-        Stepped { decision, old, decided, response, next: image.decode() }
+        let (threat, commands) = (&vector.threat, &vector.commands);
+        let decision = step(&mut image, &self.of.sealed, Flow::PERCEIVED, now, inputs, threat, commands);
+        (decision, image.decode())
     }
 
     /// One cycle from a node.
@@ -207,25 +193,20 @@ impl Explorer {
             plant.sense(&mut inputs);
         }
         let now = Millis::new(from.state.clock.last.raw().wrapping_add(vector.elapsed.raw()));
-        let Stepped { decision, old, decided, response, next } = self.step(&from.state, now, &inputs, vector);
+        let (decision, next) = self.step(&from.state, now, &inputs, vector);
         let plant = from.plant.map(|plant| plant.obey(&decision.outputs));
         let mut node = self.node(next.unwrap_or(State::INITIAL), plant);
-        if next.is_none() || decided.envelope != decision.envelope {
+        self.coverage.see(&node.state, config);
+        // The same cycle once more, with what lies between its parts: for the properties.
+        let witness = Witness::of(from.state, now, &inputs, &vector.threat, &vector.commands, config);
+        let cycle = witness.cycle();
+        if next != Some(witness.next)
+            || (&decision.envelope, decision.outputs, decision.verdicts)
+                != (cycle.envelope, witness.outputs, witness.verdicts)
+        {
             node.broken = Some(Broken::Step);
         }
-        self.coverage.see(&node.state, config);
-        let cycle = Cycle {
-            old: &old,
-            new: &decided.state,
-            now,
-            inputs: &inputs,
-            response: &response,
-            envelope: &decision.envelope,
-            outputs: &decision.outputs,
-            config,
-        };
-        let checks = &self.of.checks;
-        let broken = checks.iter().position(|check| !(check.holds)(&cycle, &vector.commands, &decision));
+        let broken = self.of.checks.iter().position(|check| !check.holds(&witness, &cycle));
         node.broken = node.broken.or(broken.map(Broken::Check));
         for (index, promise) in self.of.promises.iter().enumerate() {
             let waited = if (promise.waits)(&cycle) { from.waited[index].saturating_add(1) } else { 0 };
@@ -238,11 +219,11 @@ impl Explorer {
         if from.key.iter().fold(0_u32, |sum, word| sum.rotate_left(5) ^ word) % TWICE == 0 {
             self.counts.twice.fetch_add(1, Ordering::Relaxed);
             let twin = normalised(&from.state, config);
-            let again = self.step(&twin, vector.elapsed, &inputs, vector);
-            let same = again.decision.outputs == decision.outputs
-                && again.decision.verdicts == decision.verdicts
-                && again.decision.envelope == decision.envelope
-                && again.next.is_some_and(|next| key(&normalised(&next, config)) == node.key);
+            let (again, next) = self.step(&twin, vector.elapsed, &inputs, vector);
+            let same = again.outputs == decision.outputs
+                && again.verdicts == decision.verdicts
+                && again.envelope == decision.envelope
+                && next.is_some_and(|next| key(&normalised(&next, config)) == node.key);
             if !same {
                 node.broken = node.broken.or(Some(Broken::Identity));
             }
@@ -280,7 +261,7 @@ impl Explorer {
         match broken {
             Broken::Check(index) => self.of.checks.get(index).map_or("?", |check| check.name),
             Broken::Promise(index) => self.of.promises.get(index).map_or("?", |promise| promise.name),
-            Broken::Step => "the envelope of step is that of decide",
+            Broken::Step => "step is the sum of its parts",
             Broken::Identity => "states of one key behave alike",
         }
     }
@@ -310,9 +291,4 @@ impl Model for Explorer {
     fn properties(&self) -> Vec<Property<Self>> {
         vec![Property::always(HOLDS, |_, node: &Node| node.broken.is_none())]
     }
-}
-
-/// Every property of the package.
-pub fn every_check() -> Vec<Check> {
-    checks::all().collect()
 }

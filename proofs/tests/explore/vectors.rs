@@ -1,10 +1,9 @@
 //! What the supervisor reads: a healthy bus, and what differs from it.
 
 use supervisor_core::{
-    AdsState, AngleDeciDeg, Commands, Config, Contact, CurrentDeciA, DecelMs2Q11, EpbMode, EpbState,
-    EpbSwitch, EpsState, Gear, Inputs, Key, Mass10Kg, Millis, Outputs, Pedal250, Percent, PercentPerS, Pressure5KPa,
-    RateDeciDegS, Record, ResetCause, Row,
-    Seat, Signal, SpeedKmhQ8, Threat, TorqueNmQ10, XbrStatus,
+    AdsState, AngleDeciDeg, Commands, Config, Contact, CurrentDeciA, DecelMs2Q11, EpbMode, EpbState, EpbSwitch,
+    EpsState, Gear, Inputs, Key, Mass10Kg, Millis, Outputs, Pedal250, Percent, PercentPerS, Pressure5KPa, RateDeciDegS,
+    Row, Seat, Signal, SpeedKmhQ8, Threat, TorqueNmQ10, XbrStatus,
 };
 use supervisor_perceive::{Scene, perceive};
 
@@ -189,10 +188,4 @@ pub fn speed(vector: &mut Vector, raw: u16) {
 pub fn seat(vector: &mut Vector, [first, second]: [Option<Seat>; 2]) {
     let signal = |seat: Option<Seat>| seat.map_or(Signal::NEVER, Signal::Known);
     vector.inputs.seat = [signal(first), signal(second)];
-}
-
-/// Every way to start.
-pub fn boots() -> Vec<(ResetCause, Option<Record>)> {
-    let records = || Record::ALL.iter().copied().map(Some).chain([None]);
-    [ResetCause::PowerOn, ResetCause::Other].into_iter().flat_map(|cause| records().map(move |record| (cause, record))).collect()
 }

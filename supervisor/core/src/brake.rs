@@ -5,6 +5,7 @@ use crate::mitigation::Mitigation;
 use supervisor_observe::Ticks;
 use supervisor_observe::{BrakePedal, Evidence, SeatView};
 
+use supervisor_terms::kernel;
 use supervisor_terms::word::retained;
 use supervisor_terms::{
     Config, DecelMs2Q11, Deviation, EpbState, Inputs, Millis, Mode, Outputs, Pedal250, Percent, Reason, Response,
@@ -49,18 +50,18 @@ pub(crate) fn leave_table(speed: SpeedKmhQ8, config: &Config) -> DecelMs2Q11 {
     const COARSE: u16 = 1280;
     const KNEE: u16 = 2560;
     let raw = speed.raw();
-    let (index, rest, step) = if raw < KNEE {
-        (raw / FINE, raw % FINE, FINE)
-    } else {
-        let above = raw.saturating_sub(KNEE);
-        ((above / COARSE).saturating_add(5), above % COARSE, COARSE)
-    };
-    let index = usize::from(index);
     let point =
         |index: usize| config.leave_decel.0.get(index).or(config.leave_decel.0.last()).map_or(0, |decel| decel.raw());
-    let (here, next) = (point(index), point(index.saturating_add(1)));
-    let rise = u32::from(next.saturating_sub(here)).saturating_mul(u32::from(rest)).div_ceil(u32::from(step));
-    DecelMs2Q11::new(here.saturating_add(u16::try_from(rise).unwrap_or(u16::MAX)))
+    let between = |index: u16, rest, step| {
+        let index = usize::from(index);
+        DecelMs2Q11::new(kernel::between_up(point(index), point(index.saturating_add(1)), rest, step))
+    };
+    if raw < KNEE {
+        between(raw / FINE, raw % FINE, FINE)
+    } else {
+        let above = raw.saturating_sub(KNEE);
+        between((above / COARSE).saturating_add(5), above % COARSE, COARSE)
+    }
 }
 
 impl Brake {
@@ -161,8 +162,8 @@ impl Brake {
         if !self.lost.due(config.brake_hold, ticks.safety) {
             return self.total;
         }
-        let step = u32::from(config.brake_ramp.raw()).saturating_mul(ticks.safety.raw()).div_ceil(1000);
-        DecelMs2Q11::new(self.total.raw().saturating_sub(u16::try_from(step).unwrap_or(u16::MAX)))
+        let step = kernel::fallen(config.brake_ramp.raw(), ticks.safety.raw());
+        DecelMs2Q11::new(self.total.raw().saturating_sub(step))
     }
 }
 
@@ -175,17 +176,16 @@ impl BrakeBound {
     /// Service brake and retarder together (RET-1).
     #[must_use]
     pub fn total(&self, outputs: &Outputs) -> DecelMs2Q11 {
-        let retarder = self.retarder_decel.raw().saturating_mul(u16::from(outputs.retarder.torque.raw()));
-        DecelMs2Q11::new(outputs.brake.total.raw().saturating_add(retarder))
+        let (service, percents) = (outputs.brake.total.raw(), outputs.retarder.torque.raw());
+        DecelMs2Q11::new(kernel::together(service, self.retarder_decel.raw(), percents))
     }
 
     /// RET-1, PHB-1: the retarder torque that the cap leaves beside the service brake.
     #[must_use]
     pub fn retarder_beside(&self, service: DecelMs2Q11) -> Bound<Percent> {
         let room = self.cap.most.raw().saturating_sub(service.raw());
-        let share = room.checked_div(self.retarder_decel.raw()).unwrap_or(100).min(100);
         let mut bound = self.retarder;
-        bound.lower(Percent::new(u8::try_from(share).unwrap_or(100)), self.cap.reason);
+        bound.lower(Percent::new(kernel::fits(room, self.retarder_decel.raw())), self.cap.reason);
         bound
     }
 }
@@ -217,7 +217,6 @@ fn cap(situation: &Situation, floor: Bound<DecelMs2Q11>, evidence: &Evidence, co
 
 /// What the driver's brake pedal asks for, with the drag that goes with no pedal at all.
 fn pedal_decel(travel: Pedal250, config: &Config) -> DecelMs2Q11 {
-    let share = u32::from(config.pedal_decel.raw()).saturating_mul(u32::from(travel.raw())).div_ceil(250);
-    let total = share.saturating_add(u32::from(config.drag_decel.raw())).min(u32::from(config.brake_cap.raw()));
-    DecelMs2Q11::new(u16::try_from(total).unwrap_or(u16::MAX))
+    let share = kernel::share_up(config.pedal_decel.raw(), travel.raw(), 250);
+    DecelMs2Q11::new(share.saturating_add(config.drag_decel.raw())).min(config.brake_cap)
 }

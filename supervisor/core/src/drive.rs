@@ -4,6 +4,7 @@ use crate::envelope::{Bound, Permission, TorqueBound};
 use supervisor_observe::Ticks;
 use supervisor_observe::{BrakePedal, Evidence, percent};
 
+use supervisor_terms::kernel;
 use supervisor_terms::word::{permit, retained};
 use supervisor_terms::{
     AdsState, Config, Count, DecelMs2Q11, DriveTorque, DrivingMode, EpbState, ExitReason, Gear, Inputs, Level, Millis,
@@ -270,12 +271,9 @@ fn pedal_map(travel: Pedal250, config: &Config) -> Percent {
     /// The points lie 10 % = 25 × 0.4 % apart.
     const STEP: u8 = 25;
     let index = usize::from(travel.raw() / STEP);
-    let rest = u16::from(travel.raw() % STEP);
     let point =
         |index: usize| config.pedal_map.0.get(index).or(config.pedal_map.0.last()).map_or(0, |torque| torque.raw());
-    let (here, next) = (point(index), point(index.saturating_add(1)));
-    let rise = u16::from(next.saturating_sub(here)).saturating_mul(rest).div_euclid(25);
-    let torque = here.saturating_add(u8::try_from(rise).unwrap_or(u8::MAX));
+    let torque = kernel::between_down(point(index), point(index.saturating_add(1)), travel.raw() % STEP, STEP);
     let tolerance = if travel > config.pedal_pressed { config.pedal_tolerance.raw() } else { 0 };
     Percent::new(torque.saturating_add(tolerance).min(100))
 }

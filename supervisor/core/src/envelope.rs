@@ -10,6 +10,7 @@ use supervisor_terms::{
 /// An upper bound and why it is no higher.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(kani, derive(kani::Arbitrary))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
 pub struct Bound<T> {
     /// Greatest permitted value.
     pub most: T,
@@ -46,6 +47,7 @@ macro_rules! bounds {
         $(#[$doc])*
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         #[cfg_attr(kani, derive(kani::Arbitrary))]
+        #[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
         pub struct $name { $($(#[$field_doc])* pub $field: $type,)+ }
     )*};
 }

@@ -7,6 +7,7 @@ use crate::envelope::{Permission, SteeringBound};
 use supervisor_observe::Evidence;
 use supervisor_observe::Ticks;
 
+use supervisor_terms::kernel;
 use supervisor_terms::word::{permit, retained};
 use supervisor_terms::{
     AngleDeciDeg, Config, EpsState, Inputs, Mode, Outputs, Percent, RateDeciDegS, Reason, Rest, SpeedKmhQ8, Timer,
@@ -177,10 +178,7 @@ impl SteeringState {
     /// STR-2: the window of the overlay torque around the last one, and the last one faded towards zero.
     fn overlay(&self, fade_in: u8, fade_out: u8, config: &Config) -> (TorqueNmQ10, TorqueNmQ10, TorqueNmQ10) {
         let full = config.steering_overlay.raw().max(0);
-        let step = |share: u8| {
-            let step = u32::from(full.unsigned_abs()).saturating_mul(u32::from(share)) / 100;
-            i16::try_from(step).unwrap_or(i16::MAX)
-        };
+        let step = |share| i16::try_from(kernel::share_down(full.unsigned_abs(), share)).unwrap_or(i16::MAX);
         let before = self.overlay.raw().max(full.saturating_neg()).min(full);
         let (down, up) = if before > 0 { (step(fade_out), step(fade_in)) } else { (step(fade_in), step(fade_out)) };
         let least = before.saturating_sub(down).max(full.saturating_neg());

@@ -6,6 +6,7 @@
 
 use crate::envelope::{Bound, ContactorBound, Envelope, Permission};
 
+use supervisor_terms::kernel;
 use supervisor_terms::{
     Auxiliaries, Body, BrakeMode, Command, Commands, ContactorRequest, Contactors, DecelMs2Q11, DriveTorque,
     DrivingMode, EpbMode, EpbRequest, Gear, GearRequest, Kind, Origin, Outputs, ParkingBrake, Percent, Priority,
@@ -121,7 +122,8 @@ pub fn vet_brake(envelope: &Envelope, command: Command<ServiceBrake>) -> (Servic
     if wanted.total < bound.floor.most {
         out.total = bound.floor.most;
         // VLC-1b, VLC-2a: what we ask for ourselves is split electric first; friction fills up.
-        out.electric = bound.electric.min(out.total);
+        let (electric, _) = kernel::split(out.total.raw(), bound.electric.raw());
+        out.electric = DecelMs2Q11::new(electric);
         cause =
             Some(Verdict::below(Kind::Substitute, bound.floor.reason, wanted.total.wide(), bound.floor.most.wide()));
     }

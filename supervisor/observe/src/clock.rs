@@ -21,6 +21,7 @@ retained! {
 /// What this cycle adds to the timers.
 #[derive(Clone, Copy, Debug)]
 #[cfg_attr(kani, derive(kani::Arbitrary))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
 pub struct Ticks {
     /// For everything that leads to a permission, or ends an obligation: 0 in a cycle with a clock fault.
     pub permission: Millis,

@@ -1,7 +1,7 @@
 //! What the inputs of one cycle are evidence for. Unknown is evidence for nothing (rule 1).
 
 use supervisor_terms::{
-    AngleDeciDeg, Config, DecelMs2Q11, Inputs, Pedal250, Percent, Pressure5KPa, Seat, Signal, SpeedKmhQ8,
+    AngleDeciDeg, Config, DecelMs2Q11, Inputs, Pedal250, Percent, Pressure5KPa, Seat, Signal, SpeedKmhQ8, kernel,
 };
 
 /// The two speeds, where they agree (rule 6).
@@ -89,10 +89,9 @@ fn agreed([first, second]: [Signal<Pedal250>; 2], config: &Config) -> Option<Ped
 fn speed(inputs: &Inputs, config: &Config) -> Option<Speed> {
     let (wheel, motor) = (inputs.wheel_speed.known()?, inputs.motor_speed.known()?);
     let (low, high) = (wheel.min(motor), wheel.max(motor));
-    let difference = u32::from(high.raw().abs_diff(low.raw()));
-    let absolute = difference <= u32::from(config.speed_agree.raw());
-    let hundredfold = difference.saturating_mul(100);
-    let relative = hundredfold <= u32::from(config.speed_agree_percent.raw()).saturating_mul(u32::from(high.raw()));
+    let difference = high.raw().abs_diff(low.raw());
+    let absolute = difference <= config.speed_agree.raw();
+    let relative = kernel::within_percent(difference, config.speed_agree_percent.raw(), high.raw());
     (absolute || relative).then_some(Speed { low, high })
 }
 

@@ -12,6 +12,10 @@
     clippy::unreachable
 )]
 
+// What derives `Arbitrary` guards its recursion with std.
+#[cfg(feature = "arbitrary")]
+extern crate std;
+
 #[cfg(kani)]
 extern crate kani;
 

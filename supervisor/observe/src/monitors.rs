@@ -4,6 +4,7 @@
 //! what was found, and the decision core calls the next stronger means. Unknown feedback is evidence for neither:
 //! what was confirmed stays, nothing new is.
 
+use supervisor_terms::kernel;
 use supervisor_terms::word::retained;
 use supervisor_terms::{
     AngleDeciDeg, Channels, Config, Contact, ContactorRequest, DecelMs2Q11, Deviation, EpbRequest, EpbState, EpsState,
@@ -70,7 +71,7 @@ retained! {
 
 /// What `percent` of a value is.
 fn share(value: u16, percent: Percent) -> u16 {
-    u16::try_from(u32::from(value).saturating_mul(u32::from(percent.raw())) / 100).unwrap_or(u16::MAX)
+    kernel::share_down(value, percent.raw())
 }
 
 /// A timer that stays as it is while its condition is not known.

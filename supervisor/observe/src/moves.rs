@@ -6,6 +6,7 @@ use supervisor_terms::Words;
 /// The last position confirmed, and the last one asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(kani, derive(kani::Arbitrary))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
 pub struct Moves<T> {
     /// Last known position.
     pub seen: Option<T>,

@@ -2,15 +2,16 @@
 
 use core::cmp::{Ordering, Reverse};
 
+use supervisor_core::kernel::{self, farther_than, nearer_than};
 use supervisor_core::{ClosingCmS, Config, DecelMs2Q11, DistanceCm, Level, Millis, Object, OffsetCm};
 
-use crate::kernel::{farther_than, nearer_than};
 use crate::scene::{CameraObject, Class, RadarObject};
 use crate::time::moved;
 
 /// What one object, or several merged, may oblige and permit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(kani, derive(kani::Arbitrary))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
 pub struct Assessment {
     /// Level obliged by a valid obstacle.
     pub level: Level,
@@ -82,16 +83,9 @@ fn level(distance: DistanceCm, closing: ClosingCmS, config: &Config) -> Level {
 /// Deceleration that takes away the closing speed before the margin: v²/(2·(gap − margin)), rounded up.
 /// Saturates, also where the margin is used up; 0 when not closing (MIT-6, MIT-8).
 fn required(distance: DistanceCm, closing: ClosingCmS, config: &Config) -> DecelMs2Q11 {
-    let Ok(closing) = u32::try_from(closing.raw()) else { return DecelMs2Q11::ZERO };
+    let Ok(closing) = u16::try_from(closing.raw()) else { return DecelMs2Q11::ZERO };
     let gap = distance.raw().saturating_sub(config.gap_margin.raw());
-    // v in cm/s, gap in cm: v²/(2·gap) cm/s² = v²·2048/(2·gap·100) in 1/2048 m/s² = v²·256/(25·gap).
-    let square = u64::from(closing).saturating_mul(u64::from(closing)).saturating_mul(256);
-    let divisor = u64::from(gap).saturating_mul(25);
-    match (closing, divisor) {
-        (0, _) => DecelMs2Q11::ZERO,
-        (_, 0) => DecelMs2Q11::new(u16::MAX),
-        (_, divisor) => DecelMs2Q11::new(u16::try_from(square.div_ceil(divisor)).unwrap_or(u16::MAX)),
-    }
+    DecelMs2Q11::new(kernel::needed(closing, gap))
 }
 
 fn within(offset: OffsetCm, half: OffsetCm) -> bool {

@@ -21,7 +21,7 @@
 //! nothing about it has to be assumed from one cycle to the next.
 
 use heapless::Vec;
-use supervisor_core::{Config, Percent};
+use supervisor_core::{Config, Percent, kernel};
 
 use crate::picture::{Lens, Outline, Span};
 use crate::scene::{CameraObject, Class, MAX_CAMERA, MAX_RADAR, RadarObject};
@@ -89,8 +89,7 @@ impl Overlap {
 
     /// Both shares, on one denominator: 32 by 32 bits each, exact.
     fn shares(self, other: Self) -> (u64, u64) {
-        let product = |shared: u32, sum: u32| u64::from(shared).saturating_mul(u64::from(sum));
-        (product(self.shared, other.sum), product(other.shared, self.sum))
+        kernel::crossed(self.shared, self.sum, other.shared, other.sum)
     }
 
     /// FUS-3a: intersection over union is greater than the other's.

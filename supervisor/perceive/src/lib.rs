@@ -15,12 +15,15 @@
     clippy::unreachable
 )]
 
+// What derives `Arbitrary` guards its recursion with std.
+#[cfg(feature = "arbitrary")]
+extern crate std;
+
 #[cfg(kani)]
 extern crate kani;
 
 mod assess;
 mod fusion;
-mod kernel;
 mod picture;
 mod scene;
 mod time;

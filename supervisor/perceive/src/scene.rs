@@ -26,6 +26,7 @@ codes! {
 /// An object of the radar. Ordered by its values, so that no order of a list decides anything.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[cfg_attr(kani, derive(kani::Arbitrary))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
 pub struct RadarObject {
     /// Longitudinal distance.
     pub distance: DistanceCm,
@@ -53,6 +54,7 @@ impl RadarObject {
 /// A box in the camera's image, in pixels.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 #[cfg_attr(kani, derive(kani::Arbitrary))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
 pub struct PixelBox {
     /// Left edge.
     pub left: u16,
@@ -67,6 +69,7 @@ pub struct PixelBox {
 /// An object of the camera. Ordered by its values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[cfg_attr(kani, derive(kani::Arbitrary))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
 pub struct CameraObject {
     /// Its box in the image.
     pub pixels: PixelBox,

@@ -140,6 +140,7 @@ codes! {
 /// A set of channels.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(kani, derive(kani::Arbitrary))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
 pub struct Channels(u16);
 
 impl Channels {
@@ -160,6 +161,7 @@ impl Channels {
 /// What a channel was asked for in this cycle. Frames come every 10–200 ms, cycles every 10 ms.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(kani, derive(kani::Arbitrary))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
 pub enum Command<T> {
     /// Nothing received within the time-out, or ever.
     Absent,
@@ -191,6 +193,7 @@ macro_rules! channel_value {
         $(#[$doc])*
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         #[cfg_attr(kani, derive(kani::Arbitrary))]
+        #[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
         pub struct $name { $($(#[$field_doc])* pub $field: $type,)+ }
 
         impl $name {
@@ -338,11 +341,13 @@ macro_rules! channels {
         /// One command per channel.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         #[cfg_attr(kani, derive(kani::Arbitrary))]
+        #[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
         pub struct Commands { $($(#[$doc])* pub $field: Command<$type>,)* }
 
         /// What the supervisor sends, on every channel in every cycle.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         #[cfg_attr(kani, derive(kani::Arbitrary))]
+        #[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
         pub struct Outputs { $($(#[$doc])* pub $field: $type,)* }
 
         impl Commands {

@@ -39,6 +39,7 @@ const OTHERS: [u8; 4] = [0x00, 0xF0, 0x0F, 0xFF];
 /// The signature of the stages so far. Order counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(kani, derive(kani::Arbitrary))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
 pub struct Flow(u32);
 
 impl Flow {

@@ -6,6 +6,7 @@ use crate::word::Words;
 /// the two copies is whole.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(kani, derive(kani::Arbitrary))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
 pub struct Image<const N: usize> {
     words: [u32; N],
     complement: [u32; N],

@@ -117,6 +117,7 @@ codes! {
 /// Unknown is evidence for nothing: neither for a hazard, nor for safety (spec rule 1).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(kani, derive(kani::Arbitrary))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
 pub enum Signal<T> {
     /// Received in time, intact, in range.
     Known(T),
@@ -145,6 +146,7 @@ impl<T: Copy + PartialEq> Signal<T> {
 /// [`Threat`](crate::Threat) first).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(kani, derive(kani::Arbitrary))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
 pub struct Inputs {
     /// The two seat sensors.
     pub seat: [Signal<Seat>; 2],

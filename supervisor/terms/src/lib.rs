@@ -13,6 +13,10 @@
     clippy::unreachable
 )]
 
+// What derives `Arbitrary` guards its recursion with std.
+#[cfg(feature = "arbitrary")]
+extern crate std;
+
 #[cfg(kani)]
 extern crate kani;
 
@@ -20,6 +24,7 @@ mod command;
 mod flow;
 mod image;
 mod input;
+pub mod kernel;
 mod limits;
 mod response;
 mod sealed;

@@ -53,6 +53,7 @@ field!(SpeedKmhQ8, TorqueNmQ10);
 /// A row of values at fixed points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(kani, derive(kani::Arbitrary))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
 pub struct Row<T, const N: usize>(pub [T; N]);
 
 impl<T: Word, const N: usize> Words for Row<T, N> {
@@ -84,6 +85,7 @@ macro_rules! limits {
         /// Every limit of the supervisor. Obtained from sealed bytes only ([`Sealed`](crate::Sealed)), or the default.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         #[cfg_attr(kani, derive(kani::Arbitrary))]
+        #[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
         pub struct Config { $($(#[$doc])* pub $field: limits!(@type $type $(<$inner, $count>)?),)+ }
 
         /// The table itself, row by row in the order of [`Config`].

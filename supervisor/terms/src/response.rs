@@ -21,6 +21,7 @@ codes! {
 /// Whether the actuators follow their commands. Every combination of fields is legal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(kani, derive(kani::Arbitrary))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
 pub struct Response {
     /// The brakes give less than the last output (RSP-1), or can give less than it (VLC-2f).
     pub brake: Deviation,

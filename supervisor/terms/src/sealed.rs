@@ -47,6 +47,7 @@ impl core::error::Error for ConfigError {}
 /// A configuration that has passed every check, with a digest that shows a later change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(kani, derive(kani::Arbitrary))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
 pub struct Sealed {
     config: Config,
     digest: u32,

@@ -41,6 +41,7 @@ codes! {
 /// The object that decides, for explanation only.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(kani, derive(kani::Arbitrary))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
 pub struct Object {
     /// Longitudinal distance.
     pub distance: DistanceCm,
@@ -53,6 +54,7 @@ pub struct Object {
 /// What perception knows of the road ahead in this cycle. Every combination of fields is legal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(kani, derive(kani::Arbitrary))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
 pub struct Threat {
     /// Both sensors deliver in time.
     pub known: bool,

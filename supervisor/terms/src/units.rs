@@ -4,6 +4,7 @@
 //! against the table of [`limits`](crate::Config), never by the type. `Q8`, `Q10`, `Q11` are fixed-point
 //! formats: the value is the integer divided by 2⁸, 2¹⁰, 2¹¹.
 
+use crate::kernel;
 use crate::word::Word;
 
 macro_rules! unit {
@@ -11,6 +12,7 @@ macro_rules! unit {
         $(#[$doc])*
         #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
         #[cfg_attr(kani, derive(kani::Arbitrary))]
+        #[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
         pub struct $name($raw);
 
         impl $name {
@@ -119,6 +121,7 @@ signed_word!(AngleDeciDeg, TorqueNmQ10, CurrentDeciA, OffsetCm, ClosingCmS, Rota
 /// (`elapsed = 0`), so a condition "for at least T" is never met early, whatever the cycle. Saturates.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 #[cfg_attr(kani, derive(kani::Arbitrary))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
 pub struct Timer(u32);
 
 impl Timer {
@@ -128,7 +131,7 @@ impl Timer {
     /// END-1a: starts a stopped timer at 0 ms, or adds `elapsed` to a running one.
     #[must_use]
     pub fn run(self, elapsed: Millis) -> Self {
-        if self.0 == 0 { Self(1) } else { Self(self.0.saturating_add(elapsed.0)) }
+        Self(kernel::counted(self.0, elapsed.0))
     }
     /// Runs while `condition` holds, else stops.
     #[must_use]
@@ -160,6 +163,7 @@ impl Timer {
 /// What a rate leaves over below one unit, in thousandths: slow rates and short cycles lose nothing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(kani, derive(kani::Arbitrary))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
 pub struct Rest(u16);
 
 impl Rest {
@@ -169,8 +173,8 @@ impl Rest {
     /// Whole units that `per_second` gives in `elapsed`, and what is left over.
     #[must_use]
     pub fn portion(self, per_second: u16, elapsed: Millis) -> (u32, Self) {
-        let thousandths = u32::from(per_second).saturating_mul(elapsed.0).saturating_add(u32::from(self.0));
-        (thousandths / 1000, Self(u16::try_from(thousandths % 1000).unwrap_or(0)))
+        let (whole, rest) = kernel::portion(per_second, elapsed.0, self.0);
+        (whole, Self(rest))
     }
 }
 

@@ -252,6 +252,7 @@ impl Verdicts {
 /// The faults and hints of a cycle, one bit each. Debounced by `supervisor-report`, never here.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(kani, derive(kani::Arbitrary))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
 pub struct Faults(u32);
 
 macro_rules! faults {

@@ -1,11 +1,18 @@
-//! The supervisor itself: state at rest, boot, safe state.
+//! The supervisor itself: state at rest, boot, safe state, record (SELF).
+
 use supervisor_core::{
-    Commands, EpbRequest, Origin, Outputs, Percent, Reason, Record, ResetCause, STATE_WORDS, State, StateImage, record,
-    vet_brake, vet_contactors, vet_drive, vet_epb, vet_gear, vet_mode, vet_warnings,
+    Commands, EpbRequest, Outputs, Percent, Record, ResetCause, STATE_WORDS, State, StateImage, record, vet_contactors,
+    vet_drive, vet_epb, vet_gear, vet_mode, vet_warnings,
 };
 
 use super::Any;
-use crate::properties::self_9_boot;
+use crate::properties::boot::self_9_boot;
+use crate::properties::drive::no_torque_under_obligation;
+use crate::properties::gear::seat_6_neutral;
+use crate::properties::high_voltage::self_7_contactor_fault_closes_nothing;
+use crate::properties::supervisor::{
+    self_5_safe_state, self_6_flow_fault_is_the_safe_state, self_7_latched, self_7_quiet_counts_real_time,
+};
 
 /// SELF-5: what is put to rest comes back.
 #[kani::proof]
@@ -52,52 +59,16 @@ fn self_5_safe_state_and_no_torque() {
         ..others
     };
     let cycle = any.cycle(&outputs);
-    assert!(cycle.self_5_safe_state());
-    assert!(cycle.self_7_latched());
-    assert!(cycle.self_7_quiet_counts_real_time());
-    assert!(cycle.self_6_flow_fault_is_the_safe_state());
-    assert!(cycle.self_7_contactor_fault_closes_nothing());
-    assert!(cycle.no_torque_under_obligation());
-    assert!(cycle.seat_6_neutral());
+    assert!(self_5_safe_state(&cycle));
+    assert!(self_7_latched(&cycle));
+    assert!(self_7_quiet_counts_real_time(&cycle));
+    assert!(self_6_flow_fault_is_the_safe_state(&cycle));
+    assert!(self_7_contactor_fault_closes_nothing(&cycle));
+    assert!(no_torque_under_obligation(&cycle));
+    assert!(seat_6_neutral(&cycle));
     kani::cover!(any.decided.state.is_safe_state(), "the safe state");
     kani::cover!(any.old.is_safe_state() && !any.decided.state.is_safe_state(), "the safe state ends by a key cycle");
     kani::cover!(outputs.drive.torque > Percent::ZERO, "torque passes");
-}
-
-/// SEAT-3, MIT-1 to MIT-4: the service brake is never below an obligation, whatever the command.
-#[kani::proof]
-#[kani::unwind(17)]
-fn mit_4_brake_never_below_obligation() {
-    let any = Any::new();
-    let outputs = Outputs { brake: vet_brake(&any.decided.envelope, kani::any()).0, ..kani::any() };
-    assert!(any.cycle(&outputs).brake_never_below_obligation());
-    kani::cover!(any.decided.state.mitigation.three, "level 3");
-    kani::cover!(any.decided.state.seat.leave, "leave");
-}
-
-/// RSP-1, TRQ-7, SELF-10, EPB-1, VLC-1: an actuator that does not follow calls the next stronger means.
-#[kani::proof]
-#[kani::unwind(17)]
-fn rsp_1_next_stronger_means() {
-    let any = Any::new();
-    let envelope = &any.decided.envelope;
-    let others: Outputs = kani::any();
-    let outputs = Outputs {
-        brake: vet_brake(envelope, kani::any()).0,
-        drive: vet_drive(envelope, kani::any(), kani::any(), kani::any(), kani::any()).0,
-        epb: vet_epb(envelope, kani::any()).0,
-        mode: vet_mode(envelope, kani::any()).0,
-        ..others
-    };
-    let cycle = any.cycle(&outputs);
-    assert!(cycle.trq_7_excess_is_answered());
-    assert!(cycle.self_10_bypass_is_answered());
-    assert!(cycle.rsp_1_retarder_helps());
-    assert!(cycle.epb_1_parking_brake_helps());
-    assert!(cycle.vlc_1_mode_not_configured_commands_nothing());
-    kani::cover!(envelope.brake.retarder_obliged, "the retarder helps");
-    kani::cover!(envelope.epb.obliged == Some(Reason::BrakeResponse), "the parking brake helps");
-    kani::cover!(outputs.drive.torque > Percent::ZERO && outputs.drive.origin == Origin::Epbi, "EPBi torque passes");
 }
 
 /// SELF-1, SEAT-4: `record` is total, and only a release that went out clears *parked by leave*. With `decide`, every
