@@ -2,7 +2,8 @@
 //!
 //! The link is not a wire: it takes time to trust a sender, and it samples by its periods. The log therefore begins with
 //! the first cycle held until every input is known, and what comes after is what the supervisor reads *by the link*:
-//! an input that is unknown for one cycle only stays unknown longer. The text beside it is the exact way.
+//! an input that is unknown for one cycle only stays unknown longer, and what is held for a timer is held a period longer.
+//! The text beside it is the exact way.
 
 use std::error::Error;
 use std::fmt::Write as _;
@@ -19,6 +20,10 @@ use crate::trace::Drive;
 
 /// The replay steps every 10 ms.
 const STEP: u32 = 10;
+/// The longest period of the link, in ms.
+const SLOWEST: u32 = 200;
+/// A vector that is held for more cycles than this is held for a timer, and longer by that period.
+const LONG: usize = 4;
 /// Between two frames, in µs.
 const SPACING: u64 = 100;
 
@@ -44,12 +49,20 @@ fn log(explorer: &Explorer, drive: &Drive) -> String {
             controller.encode_commands(Millis::new(now), commands, &mut put);
         }
     };
-    // Until every sender is trusted: the slowest sends every 200 ms.
-    let trusted = (explorer.of.config.requalify.raw() + 400) / STEP;
+    // Until every sender is trusted, and what is held long enough to be a timer's: the slowest sends every 200 ms.
+    let trusted = explorer.of.config.requalify.raw() + 2 * SLOWEST;
+    let mut before = None;
     for (index, (action, ran)) in drive.cycles.iter().enumerate() {
+        let run = drive.cycles.iter().skip(index).take_while(|(other, _)| other == action).count();
+        let last = index + 1 == drive.cycles.len();
+        let begins = before.replace(*action) != Some(*action);
+        let extra = match index {
+            0 => trusted,
+            _ if last || begins && run > LONG => SLOWEST,
+            _ => 0,
+        };
         if let Some(vector) = explorer.of.vectors.get(*action) {
-            let count = if index == 0 { trusted } else { TICK.raw() / STEP };
-            steps(count, &ran.inputs, &vector.scene, &vector.commands);
+            steps((TICK.raw() + extra) / STEP, &ran.inputs, &vector.scene, &vector.commands);
         }
     }
     text

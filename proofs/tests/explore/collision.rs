@@ -66,6 +66,10 @@ fn angle(vector: &mut Vector, raw: i16) {
 }
 
 const ANGLES: &[Edit] = &[
+    ("69.9 degrees", |vector| angle(vector, 699)),
+    ("-79.9 degrees", |vector| angle(vector, -799)),
+    ("80 degrees", |vector| angle(vector, 800)),
+    ("-90 degrees", |vector| angle(vector, -900)),
     ("60 degrees", |vector| angle(vector, 600)),
     ("-70 degrees", |vector| angle(vector, -700)),
     ("80.1 degrees", |vector| angle(vector, 801)),

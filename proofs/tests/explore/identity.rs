@@ -167,7 +167,7 @@ pub fn key(normalised: &State) -> Key {
     key
 }
 
-/// A timer with a span of at least this is a long one.
+/// A timer with a span of at least this is a long one; but for that of boot, which runs once.
 const LONG: Millis = Millis::new(1000);
 
 /// Where a state stands between two events of its timers.
@@ -187,8 +187,9 @@ pub fn moment(normalised: &State, fine: u32, tick: Millis, config: &Config) -> M
     let after = tick.raw().saturating_mul(fine.saturating_sub(1));
     let mut state = *normalised;
     let (mut short, mut eve) = (false, false);
-    for Watch { timer, spans, .. } in watches(&mut state, config) {
+    for Watch { name, timer, spans } in watches(&mut state, config) {
         let [_, last] = spans;
+        let long = last >= LONG && name != "boot.wait";
         if !timer.is_running() || timer.reached(last) {
             continue;
         }
@@ -196,9 +197,9 @@ pub fn moment(normalised: &State, fine: u32, tick: Millis, config: &Config) -> M
         let begun = |since: u32| elapsed >= since && elapsed <= since.saturating_add(after);
         let due = |span: Millis| elapsed < span.raw() && elapsed.saturating_add(before) >= span.raw();
         if spans.into_iter().any(due) {
-            eve |= last < LONG;
+            eve |= !long;
         } else if !begun(0) && !spans.into_iter().any(|span| begun(span.raw())) {
-            if last >= LONG {
+            if long {
                 return Moment::LongMidway;
             }
             short = true;

@@ -59,7 +59,7 @@ fn start(cause: ResetCause, record: Option<Record>, plant: Option<Plant>) -> Sta
 }
 
 fn slow_of(vector: &Vector) -> bool {
-    vector.inputs.seat == [known(Seat::Vacant); 2] && vector.inputs.wheel_speed.is(SpeedKmhQ8::new(383))
+    vector.inputs.motor_speed.is(SpeedKmhQ8::new(383))
 }
 
 /// Sensors and brake as they please: who sits, how fast, whether the brake holds, in every combination and order.
@@ -76,9 +76,9 @@ fn leaving() -> Result<Exploration, Box<dyn Error>> {
         &mut alphabet,
         &[always, &[SITS, EMPTY, NOT_KNOWN], &[slow, rolls, unmeasured], &[released, applied]],
         |vector| {
-            let [seat, _] = vector.inputs.seat;
-            let (still, empty) = (vector.inputs.epb.is(EpbState::Applied), seat.is(Seat::Vacant));
-            empty && (vector.inputs.motor_speed.known().is_none() || still && slow_of(vector))
+            let applied = vector.inputs.epb.is(EpbState::Applied);
+            let long = if applied { slow_of(vector) } else { vector.inputs.motor_speed.known().is_none() };
+            vector.inputs.seat == [known(Seat::Vacant); 2] && long
         },
     );
     product(&mut alphabet, &[always, &[HALF], &[rolls], &[released]], |_| false);
@@ -143,7 +143,9 @@ fn slow(cycle: &Cycle<'_>, limit: SpeedKmhQ8) -> bool {
 /// The bus rolls, the driver gets up, sits down, and everything cooperates: it comes to rest and is parked.
 fn coming_to_rest() -> Result<Exploration, Box<dyn Error>> {
     let mut alphabet = Alphabet::new(&SCALED);
-    product(&mut alphabet, &[&[SITS, EMPTY, HALF, NOT_KNOWN], &[("", bad)]], |_| false);
+    product(&mut alphabet, &[&[SITS, EMPTY, HALF, NOT_KNOWN], &[("", bad)]], |vector| {
+        vector.inputs.seat == [known(Seat::Occupied); 2]
+    });
     let rolling = |raw| start(ResetCause::PowerOn, Some(Record::None), Some(Plant::rolling(raw)));
     let mut exploration = exploration("coming to rest", vec![rolling(2560), rolling(500)], alphabet.done())?;
     exploration.promises = vec![
