@@ -169,6 +169,8 @@ pub fn key(normalised: &State) -> Key {
 
 /// A timer with a span of at least this is a long one; but for that of boot, which runs once.
 const LONG: Millis = Millis::new(1000);
+/// A timer with a span of at least this is a very long one: the ten minutes, and a leave without a speed.
+const VERY_LONG: Millis = Millis::new(5000);
 
 /// Where a state stands between two events of its timers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -179,6 +181,10 @@ pub enum Moment {
     Midway,
     /// A long timer is on its way.
     LongMidway,
+    /// A very long one is, and every short one stands or has passed its span.
+    SettledMidway,
+    /// A very long one is, and a short one runs.
+    UnsettledMidway,
 }
 
 /// `fine` cycles before each span and as many from its begin and from each span on are worth a look of their own.
@@ -186,26 +192,32 @@ pub fn moment(normalised: &State, fine: u32, tick: Millis, config: &Config) -> M
     let before = tick.raw().saturating_mul(fine);
     let after = tick.raw().saturating_mul(fine.saturating_sub(1));
     let mut state = *normalised;
-    let (mut short, mut eve) = (false, false);
+    let (mut short, mut eve, mut long, mut very_long, mut settled) = (false, false, false, false, true);
     for Watch { name, timer, spans } in watches(&mut state, config) {
         let [_, last] = spans;
-        let long = last >= LONG && name != "boot.wait";
+        let is_long = last >= LONG && name != "boot.wait";
         if !timer.is_running() || timer.reached(last) {
             continue;
         }
+        settled &= is_long;
         let elapsed = timer.elapsed().raw();
         let begun = |since: u32| elapsed >= since && elapsed <= since.saturating_add(after);
         let due = |span: Millis| elapsed < span.raw() && elapsed.saturating_add(before) >= span.raw();
         if spans.into_iter().any(due) {
-            eve |= !long;
+            eve |= !is_long;
         } else if !begun(0) && !spans.into_iter().any(|span| begun(span.raw())) {
-            if long {
-                return Moment::LongMidway;
-            }
-            short = true;
+            short |= !is_long;
+            long |= is_long;
+            very_long |= is_long && last >= VERY_LONG;
         }
     }
-    if short && !eve { Moment::Midway } else { Moment::Corner }
+    match (very_long, long, short) {
+        (true, _, _) if settled => Moment::SettledMidway,
+        (true, _, _) => Moment::UnsettledMidway,
+        (false, true, _) => Moment::LongMidway,
+        (false, false, true) if !eve => Moment::Midway,
+        (false, false, _) => Moment::Corner,
+    }
 }
 
 /// The timers, and which of *stopped*, *running*, *reached* each is in, as bits 0 to 2.

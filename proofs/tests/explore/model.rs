@@ -245,8 +245,10 @@ impl Explorer {
                     self.counts.held.fetch_add(u64::from(long), Ordering::Relaxed);
                     return Some(ran);
                 }
-                Moment::LongMidway if !vector.holds => break,
-                Moment::LongMidway => long = true,
+                Moment::LongMidway | Moment::SettledMidway if vector.holds => long = true,
+                // Once on the way it goes on, whatever begins.
+                Moment::UnsettledMidway if long => {}
+                Moment::LongMidway | Moment::SettledMidway | Moment::UnsettledMidway => break,
                 Moment::Midway => {}
             }
             let next = self.cycle(&last.next, vector);
