@@ -174,6 +174,24 @@ fn falling_short() -> Result<Exploration, Box<dyn Error>> {
     Ok(exploration)
 }
 
+/// The modes that this slice must reach.
+pub const COVERS: &[&str] = &[
+    "mitigation.one",
+    "mitigation.two",
+    "mitigation.three",
+    "mitigation.hold",
+    "mitigation.permitted",
+    "mitigation.forward",
+    "mitigation.pedestrian",
+    "monitors.helps",
+    "monitors.emergency",
+    "mitigation.gone",
+    "mitigation.standstill",
+    "mitigation.speedless",
+    "monitors.short",
+    "monitors.brake.command",
+];
+
 /// MIT-1a, MIT-1b, MIT-2a, MIT-2b, MIT-3a, MIT-3b, MIT-4a to MIT-4h, MIT-5a, MIT-6b, MIT-6c, MIT-7a, MIT-7b, FCW-1a, PCW-1a, PHB-1a,
 /// PHB-1b, RSP-1k, EPB-1b: collision mitigation, every mode of it reached; a level ends in its time after standstill.
 #[test]
@@ -181,22 +199,7 @@ fn collision_mitigation_warnings_brake() -> Result<(), Box<dyn Error>> {
     Slice {
         name: "collision",
         explorations: vec![levels()?, braking()?, falling_short()?],
-        covers: &[
-            "mitigation.one",
-            "mitigation.two",
-            "mitigation.three",
-            "mitigation.hold",
-            "mitigation.permitted",
-            "mitigation.forward",
-            "mitigation.pedestrian",
-            "monitors.helps",
-            "monitors.emergency",
-            "mitigation.gone",
-            "mitigation.standstill",
-            "mitigation.speedless",
-            "monitors.short",
-            "monitors.brake.command",
-        ],
+        covers: COVERS,
         unreachable: &[],
     }
     .run()

@@ -153,6 +153,27 @@ fn steering() -> Result<Exploration, Box<dyn Error>> {
     exploration("steering", alphabet.done())
 }
 
+/// The modes that this slice must reach.
+pub const COVERS: &[&str] = &[
+    "drive.mode",
+    "drive.exit",
+    "drive.armed",
+    "drive.release_needed",
+    "drive.hill",
+    "drive.notice",
+    "brake.lost",
+    "monitors.disobeys",
+    "monitors.excess",
+    "monitors.drive.command",
+    "steering.acts",
+    "steering.barred",
+    "steering.astray",
+    "steering.lost",
+    "steering.takeover",
+    "monitors.steering.still",
+    "monitors.steering.off",
+];
+
 /// TRQ-1a, TRQ-1c, TRQ-2a, TRQ-2b, TRQ-3a, TRQ-4a, TRQ-4b, TRQ-5a, TRQ-5b, TRQ-6a, TRQ-6b, TRQ-7a, TRQ-7b, MODE-1a to MODE-1f,
 /// SPD-1a, VLC-1d, STR-2a, RSP-1e, SELF-10c: torque, override and automated mode, every mode of them and every reason for its
 /// end reached.
@@ -161,25 +182,7 @@ fn torque_override_automated_mode() -> Result<(), Box<dyn Error>> {
     Slice {
         name: "drive",
         explorations: vec![modes()?, endings()?, torque()?, steering()?],
-        covers: &[
-            "drive.mode",
-            "drive.exit",
-            "drive.armed",
-            "drive.release_needed",
-            "drive.hill",
-            "drive.notice",
-            "brake.lost",
-            "monitors.disobeys",
-            "monitors.excess",
-            "monitors.drive.command",
-            "steering.acts",
-            "steering.barred",
-            "steering.astray",
-            "steering.lost",
-            "steering.takeover",
-            "monitors.steering.still",
-            "monitors.steering.off",
-        ],
+        covers: COVERS,
         unreachable: &[],
     }
     .run()

@@ -188,10 +188,10 @@ pub enum Moment {
 }
 
 /// `fine` cycles before each span and as many from its begin and from each span on are worth a look of their own.
-pub fn moment(normalised: &State, fine: u32, tick: Millis, config: &Config) -> Moment {
+pub fn moment(state: &State, fine: u32, tick: Millis, config: &Config) -> Moment {
     let before = tick.raw().saturating_mul(fine);
     let after = tick.raw().saturating_mul(fine.saturating_sub(1));
-    let mut state = *normalised;
+    let mut state = *state;
     let (mut short, mut eve, mut long, mut very_long, mut settled) = (false, false, false, false, true);
     for Watch { name, timer, spans } in watches(&mut state, config) {
         let [_, last] = spans;

@@ -196,7 +196,6 @@ impl Explorer {
         let (decision, next) = self.step(&from.state, now, &inputs, vector);
         let plant = from.plant.map(|plant| plant.obey(&decision.outputs));
         let mut node = self.node(next.unwrap_or(State::INITIAL), plant);
-        self.coverage.see(&node.state, config);
         // The same cycle once more, with what lies between its parts: for the properties.
         let witness = Witness::of(from.state, now, &inputs, &vector.threat, &vector.commands, config);
         let cycle = witness.cycle();
@@ -240,7 +239,7 @@ impl Explorer {
             if last.next.broken.is_some() {
                 return Some(ran);
             }
-            match moment(&normalised(&last.next.state, &self.of.config), self.of.fine, TICK, &self.of.config) {
+            match moment(&last.next.state, self.of.fine, TICK, &self.of.config) {
                 Moment::Corner => {
                     self.counts.held.fetch_add(u64::from(long), Ordering::Relaxed);
                     return Some(ran);
@@ -287,7 +286,9 @@ impl Model for Explorer {
 
     fn next_state(&self, from: &Node, action: usize) -> Option<Node> {
         let ran = self.cycles(from, self.of.vectors.get(action)?)?;
-        ran.into_iter().next_back().map(|ran| ran.next)
+        let next = ran.into_iter().next_back().map(|ran| ran.next)?;
+        self.coverage.see(&next.state, &self.of.config);
+        Some(next)
     }
 
     fn properties(&self) -> Vec<Property<Self>> {

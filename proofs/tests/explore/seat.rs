@@ -213,6 +213,35 @@ fn overdue() -> Result<Exploration, Box<dyn Error>> {
     exploration("overdue", vec![start(ResetCause::Watchdog, Some(Record::Leave), None)], alphabet.done())
 }
 
+/// The modes that this slice must reach.
+pub const COVERS: &[&str] = &[
+    "boot.pending",
+    "parking.pedal",
+    "high_voltage.stage",
+    "high_voltage.restart",
+    "high_voltage.key",
+    "gear.direction",
+    "seat.leave",
+    "parking.by_leave",
+    "parking.slow",
+    "brake.slow",
+    "monitors.loose",
+    "latches.safe_state",
+    "latches.contactor",
+    "latches.off_seen",
+    "boot.wait",
+    "seat.occupied",
+    "seat.vacant",
+    "seat.unknown",
+    "parking.unconfirmed",
+    "parking.speedless",
+    "high_voltage.parked",
+    "high_voltage.wait",
+    "monitors.bypass",
+    "monitors.gear",
+    "latches.quiet",
+];
+
 /// SEAT-1a, SEAT-3a, SEAT-4a to SEAT-4e, SEAT-5a to SEAT-5d, SEAT-6a to SEAT-6c, SEAT-7a to SEAT-7k, SEAT-8a to SEAT-8c, SEAT-9a,
 /// SEAT-11a, HV-1a to HV-1d, SELF-7a, SELF-7b, SELF-9c: seat, parking brake and high voltage, every mode of them reached; K1 opens
 /// within its deadline when everything cooperates, and leave ends with the parking brake applied.
@@ -221,33 +250,7 @@ fn seat_parking_brake_high_voltage() -> Result<(), Box<dyn Error>> {
     Slice {
         name: "seat",
         explorations: vec![leaving()?, shutdown()?, coming_to_rest()?, latching()?, overdue()?],
-        covers: &[
-            "boot.pending",
-            "parking.pedal",
-            "high_voltage.stage",
-            "high_voltage.restart",
-            "high_voltage.key",
-            "gear.direction",
-            "seat.leave",
-            "parking.by_leave",
-            "parking.slow",
-            "brake.slow",
-            "monitors.loose",
-            "latches.safe_state",
-            "latches.contactor",
-            "latches.off_seen",
-            "boot.wait",
-            "seat.occupied",
-            "seat.vacant",
-            "seat.unknown",
-            "parking.unconfirmed",
-            "parking.speedless",
-            "high_voltage.parked",
-            "high_voltage.wait",
-            "monitors.bypass",
-            "monitors.gear",
-            "latches.quiet",
-        ],
+        covers: COVERS,
         unreachable: &[],
     }
     .run()

@@ -7,10 +7,12 @@ use supervisor_core::{EpbRequest, Record, ResetCause, Sealed, State};
 
 use crate::candump;
 use crate::checks::{Check, Holds};
+use crate::coverage::Coverage;
 use crate::model::{Exploration, Promise, Start, Vector};
 use crate::plant::Plant;
 use crate::report::{Slice, explore, explore_to, folder};
 use crate::vectors::{Alphabet, SCALED};
+use crate::{collision, drive, seat};
 
 const PLANTED: Check = Check {
     name: "planted: the parking brake is never asked to be applied",
@@ -84,4 +86,25 @@ fn a_broken_promise_and_a_missing_mode_are_found() -> Result<(), Box<dyn Error>>
     let missing = slice.run().err().map(|error| error.to_string()).unwrap_or_default();
     assert!(missing.contains("high_voltage.restart=Started"), "{missing}");
     Ok(())
+}
+
+/// Timers that no slice has to see in each of its phases.
+const NOT_ASKED_FOR: &[&str] = &[
+    "brake.retarder_lost",
+    "monitors.brake.response",
+    "monitors.brake_over",
+    "monitors.drive.response",
+    "monitors.steering.over",
+    "monitors.steers",
+];
+
+/// SELF-1a: every enumeration, fact and timer of the retained state belongs to a slice that must reach all its values, or
+/// is named as one that none has to.
+#[test]
+fn every_mode_belongs_to_a_slice() {
+    let slices = [seat::COVERS, collision::COVERS, drive::COVERS, NOT_ASKED_FOR];
+    let modes = Coverage::new(&SCALED).modes();
+    let groups = modes.keys().filter_map(|mode| mode.split_once('=')).map(|(group, _)| group);
+    let homeless: Vec<&str> = groups.filter(|group| !slices.iter().any(|slice| slice.contains(group))).collect();
+    assert!(homeless.is_empty(), "in no slice: {homeless:?}");
 }
