@@ -102,7 +102,6 @@ fn endings() -> Result<Exploration, Box<dyn Error>> {
     let mut alphabet = Alphabet::new(&SCALED);
     product(&mut alphabet, &[&[ROLLS], &[UNSEEN], &[ASSISTS], &[NOT_SET, SET]], |_| true);
     product(&mut alphabet, &[&[ROLLS], &[UNSEEN], &[ASSISTS], LASTING], |_| false);
-    product(&mut alphabet, &[&[ROLLS], &[UNSEEN], &[MANUAL], &PEDALS[5..]], |_| false);
     exploration("endings", alphabet.done())
 }
 
