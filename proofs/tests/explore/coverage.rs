@@ -5,10 +5,11 @@ use std::fmt::Debug;
 use std::sync::atomic::{AtomicU32, Ordering};
 
 use supervisor_core::{
-    Config, Direction, ExitReason, Faults, LastKey, Mode, PedalChain, Pending, Restart, Stage, State,
+    Config, Direction, ExitReason, Faults, LastKey, Millis, Mode, PedalChain, Pending, Restart, Stage, State,
 };
 
 use crate::identity::timers;
+use crate::vectors::SCALED;
 
 /// What of a state has few values: every value is a mode that must be seen.
 struct Group {
@@ -37,6 +38,11 @@ macro_rules! facts {
     };
 }
 
+/// A stage of the shutdown takes longer than it may.
+fn overdue(state: &State, stage: Stage, deadline: Millis) -> bool {
+    state.high_voltage.stage == stage && state.high_voltage.wait.reached(deadline)
+}
+
 /// Every enumeration of the retained state, from its own list of values; every fact.
 fn groups() -> Vec<Group> {
     let mut groups = enums! {
@@ -50,6 +56,8 @@ fn groups() -> Vec<Group> {
         "gear.direction": Direction = |state| state.gear.direction;
     };
     groups.extend(facts! {
+        "high_voltage.k4_overdue" = |state| overdue(state, Stage::OpeningK4, SCALED.k4_deadline);
+        "high_voltage.k1_overdue" = |state| overdue(state, Stage::OpeningK1, SCALED.k1_deadline);
         "seat.leave" = |state| state.seat.leave;
         "parking.by_leave" = |state| state.parking.by_leave;
         "parking.slow" = |state| state.parking.slow;

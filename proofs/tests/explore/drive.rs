@@ -122,16 +122,18 @@ fn torque() -> Result<Exploration, Box<dyn Error>> {
     exploration("torque", alphabet.done())
 }
 
+/// Asks for automatic steering, or for none.
+fn steers(vector: &mut Vector, enable: bool) {
+    asks(vector, Origin::Adas, 0, DrivingMode::Automated);
+    let weight = if enable { Percent::FULL } else { Percent::ZERO };
+    let bar_limit = BarTorque50mNm::new(100);
+    let asked = Steering { enable, weight, rate: RateDeciDegS::new(100), bar_limit, ..Steering::NEUTRAL };
+    vector.commands.steering = Command::Fresh(asked);
+}
+
 /// Automatic steering: it fades in, is taken over, goes astray, loses its command.
 fn steering() -> Result<Exploration, Box<dyn Error>> {
     let mut alphabet = Alphabet::new(&SCALED);
-    fn steers(vector: &mut Vector, enable: bool) {
-        asks(vector, Origin::Adas, 0, DrivingMode::Automated);
-        let weight = if enable { Percent::FULL } else { Percent::ZERO };
-        let bar_limit = BarTorque50mNm::new(100);
-        let asked = Steering { enable, weight, rate: RateDeciDegS::new(100), bar_limit, ..Steering::NEUTRAL };
-        vector.commands.steering = Command::Fresh(asked);
-    }
     let commands: &[Edit] = &[
         ("steers", |vector| steers(vector, true)),
         ("does not steer", |vector| steers(vector, false)),

@@ -211,6 +211,9 @@ fn overdue() -> Result<Exploration, Box<dyn Error>> {
             && vector.inputs.k1.is(Contact::Closed)
             && vector.inputs.k4.known().is_some()
     });
+    // The vacancy may settle before the brake is known to be applied.
+    let moving: Edit = ("brake unknown", |vector| vector.inputs.epb = Signal::NEVER);
+    product(&mut alphabet, &[&[("", bad)], &[EMPTY], &[moving]], |_| false);
     exploration("overdue", vec![start(ResetCause::Watchdog, Some(Record::Leave), None)], alphabet.done())
 }
 
@@ -237,7 +240,8 @@ pub const COVERS: &[&str] = &[
     "parking.unconfirmed",
     "parking.speedless",
     "high_voltage.parked",
-    "high_voltage.wait",
+    "high_voltage.k4_overdue",
+    "high_voltage.k1_overdue",
     "monitors.bypass",
     "monitors.gear",
     "latches.quiet",

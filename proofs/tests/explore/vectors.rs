@@ -172,7 +172,9 @@ pub fn product(alphabet: &mut Alphabet, dimensions: &[&[Edit]], holds: fn(&Vecto
     for combination in combinations {
         let name: Vec<&str> = combination.iter().map(|(name, _)| *name).filter(|name| !name.is_empty()).collect();
         alphabet.add(&name.join(", "), |vector| {
-            combination.iter().for_each(|(_, edit)| edit(vector));
+            for (_, edit) in &combination {
+                edit(vector);
+            }
             vector.holds = holds(vector);
         });
     }
