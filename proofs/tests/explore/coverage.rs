@@ -39,8 +39,8 @@ macro_rules! facts {
 }
 
 /// A stage of the shutdown takes longer than it may.
-fn overdue(state: &State, stage: Stage, deadline: Millis) -> bool {
-    state.high_voltage.stage == stage && state.high_voltage.wait.reached(deadline)
+fn overdue(state: &State, of: Stage, deadline: Millis) -> bool {
+    state.high_voltage.stage == of && state.high_voltage.wait.reached(deadline)
 }
 
 /// Every enumeration of the retained state, from its own list of values; every fact.

@@ -43,7 +43,7 @@ pub struct Found {
 
 /// Where records and counterexamples go.
 pub fn folder() -> PathBuf {
-    PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("../exploration")
+    PathBuf::from(env!("CARGO_TARGET_TMPDIR")).with_file_name("exploration")
 }
 
 /// Explores, breadth first, by one thread: the first way found to a finding is a shortest one.
