@@ -2,7 +2,7 @@
 //!
 //! Two things of a retained state grow without end and mean nothing: the absolute time (only differences count, END-1),
 //! and how far a timer is beyond the last span that it is compared with. The *key* of a state leaves out both, and
-//! nothing else. The explorer steps the state as it was reached, never the key; for a part of all transitions it
+//! nothing else. The explorer steps the state as it was reached, never the key; for one cycle in sixteen it
 //! steps the key too, and a difference in anything that goes out is a finding.
 
 use supervisor_core::{

@@ -19,8 +19,8 @@ use crate::plant::Plant;
 pub const TICK: Millis = Millis::new(50);
 /// An input is held for no more cycles than this: a little more than the longest timer, scaled down.
 const LONGEST_HOLD: u32 = 1300;
-/// Of so many transitions one is made twice: from the state, and from its key.
-const TWICE: u32 = 32;
+/// Of so many cycles one runs twice: from the state, and from its key.
+const TWICE: u64 = 16;
 
 /// What the supervisor reads in a cycle, with a name for people.
 #[derive(Clone, Debug)]
@@ -93,7 +93,7 @@ pub struct Counts {
     pub pruned: AtomicU64,
     /// Transitions that were held across it.
     pub held: AtomicU64,
-    /// Transitions made twice.
+    /// Cycles that ran twice.
     pub twice: AtomicU64,
     /// The longest wait of each promise.
     pub longest: [AtomicU64; PROMISES],
@@ -187,7 +187,7 @@ impl Explorer {
     /// One cycle from a node.
     pub fn cycle(&self, from: &Node, vector: &Vector) -> Ran {
         let config = &self.of.config;
-        self.counts.cycles.fetch_add(1, Ordering::Relaxed);
+        let count = self.counts.cycles.fetch_add(1, Ordering::Relaxed);
         let mut inputs = vector.inputs;
         if let Some(plant) = &from.plant {
             plant.sense(&mut inputs);
@@ -215,7 +215,7 @@ impl Explorer {
                 node.broken = node.broken.or(Some(Broken::Promise(index)));
             }
         }
-        if from.key.iter().fold(0_u32, |sum, word| sum.rotate_left(5) ^ word) % TWICE == 0 {
+        if count % TWICE == 0 {
             self.counts.twice.fetch_add(1, Ordering::Relaxed);
             let twin = normalised(&from.state, config);
             let (again, next) = self.step(&twin, vector.elapsed, &inputs, vector);

@@ -97,7 +97,7 @@ pub fn explore_to(of: Exploration, depth: usize) -> (Outcome, Explorer) {
     let modes = explorer.coverage.modes();
     let json = json!({
         "name": name, "starts": starts, "vectors": vectors, "states": states, "transitions": transitions,
-        "cycles": cycles, "depth": depth, "closed": closed, "pruned": pruned, "held": held, "made_twice": twice,
+        "cycles": cycles, "depth": depth, "closed": closed, "pruned": pruned, "held": held, "cycles_run_twice": twice,
         "promises": longest, "checks": explorer.of.checks.iter().map(|check| check.name).collect::<Vec<_>>(),
         "modes": modes.iter().filter(|(_, seen)| **seen).map(|(mode, _)| mode).collect::<Vec<_>>(),
     });
