@@ -4,19 +4,18 @@
 //! *any*, so what is proved per channel holds for the whole vector.
 
 use supervisor_core::{
-    Bound, Command, Commands, Config, Envelope, Kind, Millis, Outputs, Percent, Verdict, vet_auxiliaries, vet_body,
-    vet_brake, vet_contactors, vet_drive, vet_epb, vet_gear, vet_mode, vet_retarder, vet_steering, vet_target_speed,
-    vet_warnings,
+    Bound, Command, Commands, Envelope, Kind, Millis, Percent, Verdict, vet_auxiliaries, vet_body, vet_brake,
+    vet_contactors, vet_drive, vet_epb, vet_gear, vet_mode, vet_retarder, vet_steering, vet_target_speed, vet_warnings,
 };
 
 use super::Any;
 use crate::properties::vetting::{
     self_2_brake_sound, self_2_contactors_sound, self_2_drive_sound, self_2_epb_sound, self_2_gear_sound,
-    self_2_retarder_sound, self_2_steering_sound, self_2_warnings_sound, went_unchanged,
+    self_2_steering_sound, self_2_warnings_sound, went_unchanged,
 };
 
 /// Any feasible envelope.
-fn any_envelope() -> Envelope {
+pub(super) fn any_envelope() -> Envelope {
     let envelope: Envelope = kani::any();
     kani::assume(envelope.is_feasible());
     kani::cover!(envelope.brake.floor.most > supervisor_core::DecelMs2Q11::ZERO, "an envelope that obliges");
@@ -57,17 +56,6 @@ fn self_2_retarder() {
     let vetted = vet_retarder(&envelope, most, command);
     assert!(vetted.0.torque <= most.most);
     holds(command, envelope.timeouts.ms100, vetted, vet_retarder(&envelope, most, Command::Fresh(vetted.0)));
-}
-
-/// PHB-1, RET-1: service brake and retarder together stay below the cap, for the sealed default configuration.
-#[kani::proof]
-fn phb_1_total_below_cap() {
-    let (envelope, command, given): (_, _, Outputs) = (any_envelope(), kani::any(), kani::any());
-    // A product of configured numbers: proved for this configuration, re-provable for another.
-    kani::assume(envelope.brake.retarder_decel == Config::DEFAULT.retarder_decel);
-    let (retarder, _) = vet_retarder(&envelope, envelope.brake.retarder_beside(given.brake.total), command);
-    assert!(self_2_retarder_sound(&envelope, &Outputs { retarder, ..given }));
-    kani::cover!(retarder.torque.raw() > 0, "a retarder torque passes");
 }
 
 /// SELF-2, TRQ-6: drive torque.
