@@ -1,4 +1,5 @@
-//! What follows from the contracts alone, over more than one call: Creusot sees the kernels' contracts here, not their bodies.
+//! What follows from the contracts alone, over more than one call: Creusot sees the kernels' contracts here, not their
+//! bodies. `proof_assert!` is a step of a proof: proved itself, and no code.
 
 use crate::kernel::{between_down, between_up, crossed, fits, portion, together};
 use creusot_std::prelude::*;
@@ -8,7 +9,10 @@ use creusot_std::prelude::*;
 #[requires(rest@ <= further@ && further@ <= step@)]
 #[ensures(result.0@ <= result.1@)]
 pub fn between_up_rises(here: u16, next: u16, rest: u16, further: u16, step: u16) -> (u16, u16) {
-    (between_up(here, next, rest, step), between_up(here, next, further, step))
+    let (near, far) = (between_up(here, next, rest, step), between_up(here, next, further, step));
+    proof_assert!(here@ <= next@ ==> (next@ - here@) * rest@ <= (next@ - here@) * further@);
+    proof_assert!(near@ > far@ ==> (far@ - here@) * step@ <= (near@ - here@ - 1) * step@);
+    (near, far)
 }
 
 /// TRQ-1a: the same, rounded down.
@@ -16,7 +20,10 @@ pub fn between_up_rises(here: u16, next: u16, rest: u16, further: u16, step: u16
 #[requires(rest@ <= further@ && further@ <= step@)]
 #[ensures(result.0@ <= result.1@)]
 pub fn between_down_rises(here: u8, next: u8, rest: u8, further: u8, step: u8) -> (u8, u8) {
-    (between_down(here, next, rest, step), between_down(here, next, further, step))
+    let (near, far) = (between_down(here, next, rest, step), between_down(here, next, further, step));
+    proof_assert!(here@ <= next@ ==> (next@ - here@) * rest@ <= (next@ - here@) * further@);
+    proof_assert!(near@ > far@ ==> (far@ - here@ + 1) * step@ <= (near@ - here@) * step@);
+    (near, far)
 }
 
 /// FUS-3a: with the threshold written as `percent` of 100 + `percent` of the sum of both areas, the shared area exceeds it
@@ -40,6 +47,8 @@ pub fn retarder_stays_below(service: u16, each: u16, cap: u16) -> u16 {
 #[requires(per_second@ * (first@ + second@) + rest@ <= u32::MAX@)]
 #[ensures(result.0@ == result.1@ && result.2@ == result.3@)]
 pub fn cycles_lose_nothing(per_second: u16, first: u32, second: u32, rest: u16) -> (u32, u32, u16, u16) {
+    proof_assert!(per_second@ * (first@ + second@) == per_second@ * first@ + per_second@ * second@);
+    proof_assert!(per_second@ == 0 || first@ + second@ <= per_second@ * (first@ + second@));
     let (before, between) = portion(per_second, first, rest);
     let (after, left) = portion(per_second, second, between);
     let (whole, left_of_whole) = portion(per_second, first.saturating_add(second), rest);
