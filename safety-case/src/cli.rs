@@ -5,6 +5,8 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use supervisor::{Record, ResetCause};
 
+use crate::prove::Solver;
+
 const ABOUT: &str = "\
 The supervisor stands between the main controller of an electric bus and its actuators. This program replays \
 recorded drives through it, exactly as it runs on the target, and shows what it obliged, what it vetted, and why.
@@ -303,9 +305,9 @@ pub struct Prove {
     /// Only what took no longer than this when it was recorded
     #[arg(long, value_name = "SECONDS")]
     pub within: Option<u64>,
-    /// The solver: minisat, kissat, cadical (where CBMC has it)
-    #[arg(long, value_name = "NAME", default_value = "minisat")]
-    pub solver: String,
+    /// Another solver than the list names
+    #[arg(long, value_enum)]
+    pub solver: Option<Solver>,
     /// Run nothing: show the record and whether it is stale
     #[arg(long)]
     pub check: bool,

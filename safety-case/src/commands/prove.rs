@@ -4,14 +4,14 @@ use std::path::Path;
 
 use super::{FINDINGS, Outcome, print};
 use crate::cli::Prove;
-use crate::prove::{Options, available, prove};
+use crate::prove::{Request, available, prove};
 
 pub(super) fn run(arguments: &Prove) -> Outcome {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().ok_or("the workspace has no folder")?;
     let kani = available();
     let check = arguments.check || !kani;
-    let solver = arguments.solver.clone();
-    let options = Options { harnesses: arguments.harness.clone(), within: arguments.within, check, solver };
+    let solver = arguments.solver;
+    let options = Request { harnesses: arguments.harness.clone(), within: arguments.within, check, solver };
     let mut failure = None;
     let mut say = |line: &str| {
         if let Err(error) = print(format_args!("{line}\n")) {

@@ -21,11 +21,16 @@ fn text<'a>(value: &'a Value, key: &str) -> &'a str {
     value.get(key).and_then(Value::as_str).unwrap_or("")
 }
 
+/// A failed check of these kinds is no counterexample: a loop went further than it was unrolled, or Kani met what it
+/// does not know.
+const UNDECIDED: [&str; 2] = ["unwind", "unsupported_construct"];
+
 /// The verdict on `harness` in an exported result.
 ///
-/// `reach` demands at least one satisfied cover.
+/// Proved is only what succeeded with every check decided and with at least one cover, every one satisfied: Kani itself
+/// ends well on a proof that shows nothing.
 #[must_use]
-pub fn judge(export: &Value, harness: &str, reach: bool) -> Verdict {
+pub fn judge(export: &Value, harness: &str) -> Verdict {
     let results = export.pointer("/verification_results/results").and_then(Value::as_array);
     let Some(result) = results.into_iter().flatten().find(|result| text(result, "harness_id") == harness) else {
         return Verdict::Undetermined("no result for this harness".to_owned());
@@ -33,21 +38,34 @@ pub fn judge(export: &Value, harness: &str, reach: bool) -> Verdict {
     let checks = result.get("checks").and_then(Value::as_array).map(Vec::as_slice).unwrap_or_default();
     let (covers, others): (Vec<&Value>, Vec<&Value>) =
         checks.iter().partition(|check| text(check, "category") == "cover");
-    if let Some(failed) = others.iter().find(|check| text(check, "status") == "Failure") {
-        let line = failed.pointer("/location/line").and_then(Value::as_str).unwrap_or("?");
-        let file = failed.pointer("/location/file").and_then(Value::as_str).unwrap_or("?");
-        return Verdict::Failed(format!("{} ({file}:{line})", text(failed, "description")));
+    let (undecided, decided): (Vec<&Value>, Vec<&Value>) = (others.iter().copied())
+        .filter(|check| text(check, "status") == "Failure")
+        .partition(|check| UNDECIDED.contains(&text(check, "category")));
+    if let Some(failed) = decided.first() {
+        return Verdict::Failed(told(failed));
     }
-    if checks.is_empty() || text(result, "status") != "Success" {
-        return Verdict::Undetermined("time-out or solver failure: no checks".to_owned());
+    if let Some(failed) = undecided.first() {
+        return Verdict::Undetermined(told(failed));
     }
-    if others.iter().any(|check| text(check, "status") == "Undetermined") {
-        return Verdict::Undetermined("undetermined checks".to_owned());
+    if checks.is_empty() {
+        return Verdict::Undetermined(ended(export, harness));
     }
-    if let Some(cover) = covers.iter().find(|check| text(check, "status") != "Satisfied") {
-        return Verdict::Vacuous(format!("cover not satisfied: {}", text(cover, "description")));
+    if let Some(open) = others.iter().find(|check| !matches!(text(check, "status"), "Success" | "Unreachable")) {
+        return Verdict::Undetermined(format!("{}: {}", text(open, "status").to_lowercase(), told(open)));
     }
-    if reach && covers.is_empty() {
+    if text(result, "status") != "Success" {
+        return Verdict::Undetermined("Kani tells no success, and no failed check".to_owned());
+    }
+    for cover in &covers {
+        match text(cover, "status") {
+            "Satisfied" => {}
+            "Unsatisfiable" | "Unreachable" => {
+                return Verdict::Vacuous(format!("cover not satisfied: {}", text(cover, "description")));
+            }
+            status => return Verdict::Undetermined(format!("cover {}: {}", status.to_lowercase(), told(cover))),
+        }
+    }
+    if covers.is_empty() {
         return Verdict::Vacuous("no cover".to_owned());
     }
     // A contradictory assumption makes every check of the harness itself unreachable.
@@ -56,6 +74,22 @@ pub fn judge(export: &Value, harness: &str, reach: bool) -> Verdict {
         return Verdict::Vacuous("no check of the harness is reachable".to_owned());
     }
     Verdict::Proved
+}
+
+/// A check: what it is, and where.
+fn told(check: &Value) -> String {
+    let at = |key: &str| check.pointer(key).and_then(Value::as_str).unwrap_or("?");
+    format!("{} ({}:{})", text(check, "description"), at("/location/file"), at("/location/line"))
+}
+
+/// Why there are no checks.
+fn ended(export: &Value, harness: &str) -> String {
+    let details = export.get("error_details").and_then(Value::as_array);
+    let detail = details.into_iter().flatten().find(|detail| text(detail, "harness_id") == harness);
+    match detail.map_or("", |detail| text(detail, "exit_status")) {
+        "" => "no checks".to_owned(),
+        status => format!("no checks: {}", status.replace('_', " ")),
+    }
 }
 
 #[cfg(test)]
@@ -72,38 +106,65 @@ mod tests {
 
     #[test]
     fn a_success_with_satisfied_covers_is_proved() {
-        let export = export("Success", &json!([check("assertion", "Success"), check("cover", "Satisfied")]));
-        assert_eq!(judge(&export, "h", true), Verdict::Proved);
+        let unreachable = json!({"category": "assertion", "status": "Unreachable", "function": "core::f"});
+        let export =
+            export("Success", &json!([check("assertion", "Success"), unreachable, check("cover", "Satisfied")]));
+        assert_eq!(judge(&export, "h"), Verdict::Proved);
     }
 
     #[test]
     fn an_unsatisfiable_cover_is_vacuous_though_kani_says_success() {
-        for status in ["Unsatisfiable", "Unreachable", "Undetermined"] {
-            let export = export("Success", &json!([check("assertion", "Success"), check("cover", status)]));
-            assert!(matches!(judge(&export, "h", true), Verdict::Vacuous(_)), "{status}");
+        for status in ["Unsatisfiable", "Unreachable"] {
+            let covers = [check("assertion", "Success"), check("cover", "Satisfied"), check("cover", status)];
+            let export = export("Success", &json!(covers));
+            assert!(matches!(judge(&export, "h"), Verdict::Vacuous(_)), "{status}");
         }
     }
 
     #[test]
     fn a_contradictory_assumption_is_vacuous() {
-        let export = export("Success", &json!([check("assertion", "Unreachable")]));
-        assert!(matches!(judge(&export, "h", false), Verdict::Vacuous(_)));
+        let checks = [check("assertion", "Unreachable"), check("cover", "Satisfied")];
+        assert!(matches!(judge(&export("Success", &json!(checks)), "h"), Verdict::Vacuous(_)));
     }
 
     #[test]
-    fn a_harness_that_must_reach_needs_a_cover() {
+    fn every_harness_needs_a_cover() {
         let export = export("Success", &json!([check("assertion", "Success")]));
-        assert!(matches!(judge(&export, "h", true), Verdict::Vacuous(_)));
-        assert_eq!(judge(&export, "h", false), Verdict::Proved);
+        assert_eq!(judge(&export, "h"), Verdict::Vacuous("no cover".to_owned()));
+    }
+
+    #[test]
+    fn what_is_not_decided_is_undetermined() {
+        for status in ["Undetermined", "Unknown", "Error", "SomethingNew", ""] {
+            for kind in ["assertion", "cover"] {
+                let checks = [check("assertion", "Success"), check("cover", "Satisfied"), check(kind, status)];
+                let verdict = judge(&export("Success", &json!(checks)), "h");
+                assert!(matches!(verdict, Verdict::Undetermined(_)), "{kind} {status}: {verdict:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_loop_unrolled_too_little_is_no_counterexample() {
+        for kind in UNDECIDED {
+            let short =
+                json!([check(kind, "Failure"), check("assertion", "Undetermined"), check("cover", "Undetermined")]);
+            assert!(matches!(judge(&export("Failure", &short), "h"), Verdict::Undetermined(_)), "{kind}");
+            let real = json!([check(kind, "Failure"), check("assertion", "Failure")]);
+            assert!(matches!(judge(&export("Failure", &real), "h"), Verdict::Failed(_)), "{kind}");
+        }
     }
 
     #[test]
     fn failure_time_out_and_absence_are_not_proved() {
-        let failed = export("Failure", &json!([check("assertion", "Failure")]));
-        assert!(matches!(judge(&failed, "h", true), Verdict::Failed(_)));
-        let timeout = export("Failure", &json!([]));
-        assert!(matches!(judge(&timeout, "h", true), Verdict::Undetermined(_)));
-        assert!(matches!(judge(&json!({}), "h", true), Verdict::Undetermined(_)));
-        assert!(matches!(judge(&failed, "other", true), Verdict::Undetermined(_)));
+        let failed = export("Failure", &json!([check("assertion", "Failure"), check("cover", "Satisfied")]));
+        assert_eq!(judge(&failed, "h"), Verdict::Failed("d (f:1)".to_owned()));
+        let mut timeout = export("Failure", &json!([]));
+        timeout["error_details"] = json!([{"harness_id": "h", "exit_status": "timeout"}]);
+        assert_eq!(judge(&timeout, "h"), Verdict::Undetermined("no checks: timeout".to_owned()));
+        assert!(matches!(judge(&json!({}), "h"), Verdict::Undetermined(_)));
+        assert!(matches!(judge(&failed, "other"), Verdict::Undetermined(_)));
+        let odd = export("Failure", &json!([check("assertion", "Success"), check("cover", "Satisfied")]));
+        assert!(matches!(judge(&odd, "h"), Verdict::Undetermined(_)));
     }
 }

@@ -6,85 +6,24 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
+use super::error::{ProveError, form, read};
+use super::harness::{List, Solver};
 use super::judge::Verdict;
+use super::kani::Tools;
 
 /// Folders whose sources a proof speaks of.
 const SOURCES: [&str; 5] =
     ["supervisor/terms/src", "supervisor/observe/src", "supervisor/core/src", "supervisor/perceive/src", "proofs/src"];
 
-/// What can go wrong besides a proof.
-#[derive(Debug, thiserror::Error)]
-pub enum ProveError {
-    /// A file cannot be read or written.
-    #[error("{path}: {error}", path = path.display())]
-    File {
-        /// Which.
-        path: PathBuf,
-        /// Why.
-        error: std::io::Error,
-    },
-    /// A file does not say what it should.
-    #[error("{path}: {message}", path = path.display())]
-    Form {
-        /// Which.
-        path: PathBuf,
-        /// What is wrong.
-        message: String,
-    },
-    /// `cargo kani` did not start.
-    #[error("cargo kani: {0}")]
-    Tool(std::io::Error),
-    /// A harness of that name is not in the list.
-    #[error("no harness named {0} in proofs/harnesses.toml")]
-    Unknown(String),
-}
-
-/// One harness of `proofs/harnesses.toml`.
+/// One harness as it ran.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Harness {
-    /// Its name, unique.
+pub struct Proof {
+    /// Name of the harness.
     pub name: String,
-    /// Its module.
-    pub path: String,
-    /// base, step, safety, reach.
-    pub family: String,
     /// Rows of the specification that it proves.
     pub requirements: Vec<String>,
     /// exhaustive, or bounded with the bound.
     pub extent: String,
-    /// Why it is known not to hold as stated; it then counts as open, never as proved.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub open: Option<String>,
-}
-
-impl Harness {
-    /// As Kani names it.
-    #[must_use]
-    pub fn id(&self) -> String {
-        format!("{}::{}", self.path, self.name)
-    }
-    /// Whether it must show that it is not vacuous by covers.
-    #[must_use]
-    pub fn reaches(&self) -> bool {
-        self.family.contains("reach")
-    }
-}
-
-/// `proofs/harnesses.toml`.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct List {
-    /// The harnesses.
-    pub harness: Vec<Harness>,
-}
-
-/// One harness as it ran.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-pub struct Proof {
-    /// The harness.
-    #[serde(flatten)]
-    pub harness: Harness,
     /// What came out.
     #[serde(flatten)]
     pub verdict: Verdict,
@@ -93,22 +32,11 @@ pub struct Proof {
     /// Covers satisfied.
     pub covers: usize,
     /// The solver.
-    pub solver: String,
+    pub solver: Solver,
     /// How long it took, in seconds.
     pub seconds: u64,
     /// Digest of the sources it ran on.
     pub sources: String,
-}
-
-/// Versions of the tools.
-#[derive(Clone, Debug, Default, Serialize, Deserialize, PartialEq, Eq)]
-pub struct Tools {
-    /// Kani.
-    pub kani: String,
-    /// Its compiler.
-    pub rustc: String,
-    /// CBMC.
-    pub cbmc: String,
 }
 
 /// The record, `proofs/record.json`.
@@ -120,31 +48,6 @@ pub struct Record {
     pub tools: Tools,
     /// One entry per harness, in the order of the list.
     pub proofs: Vec<Proof>,
-}
-
-fn read(path: &Path) -> Result<String, ProveError> {
-    fs::read_to_string(path).map_err(|error| ProveError::File { path: path.to_owned(), error })
-}
-
-fn form(path: &Path, message: &dyn std::fmt::Display) -> ProveError {
-    ProveError::Form { path: path.to_owned(), message: message.to_string() }
-}
-
-impl List {
-    /// Reads the list.
-    ///
-    /// # Errors
-    /// The file cannot be read, or names a harness twice.
-    pub fn load(root: &Path) -> Result<Self, ProveError> {
-        let path = root.join("proofs/harnesses.toml");
-        let list: Self = toml::from_str(&read(&path)?).map_err(|error| form(&path, &error))?;
-        let mut names: Vec<_> = list.harness.iter().map(|harness| &harness.name).collect();
-        names.sort();
-        match names.windows(2).find(|pair| pair.first() == pair.last()) {
-            Some(pair) => Err(form(&path, &format!("harness {pair:?} stands twice"))),
-            None => Ok(list),
-        }
-    }
 }
 
 impl Record {
@@ -173,16 +76,15 @@ impl Record {
     /// The entry of a harness.
     #[must_use]
     pub fn of(&self, name: &str) -> Option<&Proof> {
-        self.proofs.iter().find(|proof| proof.harness.name == name)
+        self.proofs.iter().find(|proof| proof.name == name)
     }
 
     /// Puts an entry in the place that the list gives it.
     pub fn put(&mut self, proof: Proof, list: &List) {
-        self.proofs.retain(|entry| entry.harness.name != proof.harness.name);
+        self.proofs.retain(|entry| entry.name != proof.name);
         self.proofs.push(proof);
-        let place = |name: &str| list.harness.iter().position(|harness| harness.name == name);
-        self.proofs.retain(|entry| place(&entry.harness.name).is_some());
-        self.proofs.sort_by_key(|entry| place(&entry.harness.name));
+        self.proofs.retain(|entry| list.place(&entry.name).is_some());
+        self.proofs.sort_by_key(|entry| list.place(&entry.name));
     }
 }
 

@@ -1,17 +1,16 @@
 //! Runs `cargo kani`, one harness at a time, and keeps the record.
 
 use std::path::Path;
-use std::process::{Command, Stdio};
-use std::time::Instant;
 
-use serde_json::Value;
-
-use super::judge::{Verdict, judge};
-use super::record::{Harness, List, Proof, ProveError, Record, Tools, sources_digest};
+use super::error::ProveError;
+use super::harness::{Harness, List, Solver};
+use super::judge::Verdict;
+use super::kani::{self, Tools};
+use super::record::{Proof, Record, sources_digest};
 
 /// What to run.
 #[derive(Clone, Debug, Default)]
-pub struct Options {
+pub struct Request {
     /// Only these; all if empty.
     pub harnesses: Vec<String>,
     /// Only what took no longer than this when it was recorded, in seconds.
@@ -19,15 +18,7 @@ pub struct Options {
     /// Run nothing: show the record and whether it is stale.
     pub check: bool,
     /// The solver. Always named: Kani's default falls back silently where it is not there.
-    pub solver: String,
-}
-
-/// Whether `cargo kani` is there.
-#[must_use]
-pub fn available() -> bool {
-    let mut command = Command::new("cargo");
-    command.args(["kani", "--version"]).stdout(Stdio::null()).stderr(Stdio::null());
-    command.status().is_ok_and(|status| status.success())
+    pub solver: Option<Solver>,
 }
 
 /// Runs the chosen harnesses, updates the record, tells `say` of each line; the number of harnesses that ran and are
@@ -35,7 +26,7 @@ pub fn available() -> bool {
 ///
 /// # Errors
 /// A file or the tool fails; a harness is unknown.
-pub fn prove(root: &Path, options: &Options, say: &mut impl FnMut(&str)) -> Result<usize, ProveError> {
+pub fn prove(root: &Path, options: &Request, say: &mut impl FnMut(&str)) -> Result<usize, ProveError> {
     let list = List::load(root)?;
     let mut record = Record::load(root)?;
     let sources = sources_digest(root)?;
@@ -48,7 +39,7 @@ pub fn prove(root: &Path, options: &Options, say: &mut impl FnMut(&str)) -> Resu
             list.harness.iter().filter(|harness| is_chosen(harness, options, &record)).collect();
         for (index, harness) in chosen.iter().enumerate() {
             say(&format!("[{}/{}] {} ...", index.saturating_add(1), chosen.len(), harness.name));
-            let (proof, tools) = run(root, harness, &options.solver, &sources)?;
+            let (proof, tools) = run(root, harness, options.solver, &sources)?;
             say(&format!(
                 "        {} in {} s, {} checks, {} covers",
                 word(&proof.verdict),
@@ -64,7 +55,7 @@ pub fn prove(root: &Path, options: &Options, say: &mut impl FnMut(&str)) -> Resu
     Ok(show(&list, &record, &sources, say))
 }
 
-fn is_chosen(harness: &Harness, options: &Options, record: &Record) -> bool {
+fn is_chosen(harness: &Harness, options: &Request, record: &Record) -> bool {
     let named = options.harnesses.is_empty() || options.harnesses.contains(&harness.name);
     let quick = |within| record.of(&harness.name).is_some_and(|proof| proof.seconds <= within);
     named && options.within.is_none_or(quick)
@@ -88,7 +79,7 @@ fn show(list: &List, record: &Record, sources: &str, say: &mut impl FnMut(&str))
             _ if harness.open.is_some() => format!("OPEN: {}", harness.open.as_deref().unwrap_or("")),
             None => "stated, NOT RUN".to_owned(),
             Some(proof) if proof.sources != sources => format!("STALE (was: {})", word(&proof.verdict)),
-            Some(proof) => format!("{} ({}, {} s)", word(&proof.verdict), proof.harness.extent, proof.seconds),
+            Some(proof) => format!("{} ({}, {} s)", word(&proof.verdict), proof.extent, proof.seconds),
         };
         if line.starts_with("proved") {
             proved = proved.saturating_add(1);
@@ -104,52 +95,19 @@ fn show(list: &List, record: &Record, sources: &str, say: &mut impl FnMut(&str))
     bad
 }
 
-fn run(root: &Path, harness: &Harness, solver: &str, sources: &str) -> Result<(Proof, Tools), ProveError> {
-    let folder = root.join("target");
-    std::fs::create_dir_all(&folder).map_err(|error| ProveError::File { path: folder.clone(), error })?;
-    let export = folder.join("kani-export.json");
-    // An old export would be read as this run's: it goes first.
-    if export.exists() {
-        std::fs::remove_file(&export).map_err(|error| ProveError::File { path: export.clone(), error })?;
-    }
-    let started = Instant::now();
-    let mut command = Command::new("cargo");
-    command.current_dir(root).args(["kani", "-p", "supervisor-proofs", "--exact", "--harness", &harness.id()]);
-    command.args([
-        "--solver",
-        solver,
-        "--output-format",
-        "terse",
-        "-Z",
-        "unstable-options",
-        "--harness-timeout",
-        "900s",
-    ]);
-    command.arg("--export-json").arg(&export).stdout(Stdio::null()).stderr(Stdio::null());
-    command.status().map_err(ProveError::Tool)?;
-    let seconds = started.elapsed().as_secs();
-    let json: Value =
-        std::fs::read_to_string(&export).ok().and_then(|text| serde_json::from_str(&text).ok()).unwrap_or(Value::Null);
-    let count = |category: bool| {
-        let results = json.pointer("/verification_results/results/0/checks").and_then(Value::as_array);
-        let is_cover = |check: &&Value| (check.get("category").and_then(Value::as_str) == Some("cover")) == category;
-        results.into_iter().flatten().filter(is_cover).count()
-    };
-    let verdict = judge(&json, &harness.id(), harness.reaches());
+fn run(root: &Path, harness: &Harness, solver: Option<Solver>, sources: &str) -> Result<(Proof, Tools), ProveError> {
+    let options = kani::Options { solver, ..kani::Options::default() };
+    let outcome = kani::verify(root, &root.join("target/kani/0"), harness, &options)?;
     let proof = Proof {
-        harness: harness.clone(),
-        verdict,
-        checks: count(false),
-        covers: count(true),
-        solver: solver.to_owned(),
-        seconds,
+        name: harness.name.clone(),
+        requirements: harness.requirements.clone(),
+        extent: harness.extent.clone(),
+        verdict: outcome.verdict,
+        checks: outcome.checks,
+        covers: outcome.covers,
+        solver: outcome.solver,
+        seconds: outcome.seconds,
         sources: sources.to_owned(),
     };
-    let tool = |key: &str| json.pointer(&format!("/tools/{key}")).map_or_else(String::new, plain);
-    let tools = Tools { kani: tool("kani"), rustc: tool("rustc"), cbmc: tool("cbmc") };
-    Ok((proof, tools))
-}
-
-fn plain(value: &Value) -> String {
-    value.as_str().map_or_else(|| value.to_string(), str::to_owned)
+    Ok((proof, outcome.tools))
 }

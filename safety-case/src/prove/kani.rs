@@ -1,0 +1,185 @@
+//! Runs `cargo kani`: one harness, on the workspace at any root.
+//!
+//! Each harness is an invocation of its own. Kani generates code for that harness alone and exports its result when it
+//! ends, so the crash of one loses nothing of another. Two invocations at once need target directories of their own:
+//! each would build what the other has just built.
+
+use std::fs::{self, File};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+use super::error::{ProveError, file, form, read};
+use super::harness::{Harness, Solver};
+use super::judge::{Verdict, judge};
+
+/// The package with the harnesses.
+const PACKAGE: &str = "supervisor-proofs";
+/// Names the sealed configuration for which `proofs` is built; see `proofs/build.rs`.
+pub const CONFIGURATION: &str = "SUPERVISE_CONFIG";
+/// So many lines of what Kani said stand in an error.
+const TOLD: usize = 25;
+
+/// How to run a harness, where that differs from what the list says.
+#[derive(Clone, Debug, Default)]
+pub struct Options {
+    /// Another solver.
+    pub solver: Option<Solver>,
+    /// Another limit for the solver.
+    pub timeout: Option<Duration>,
+    /// A sealed configuration, an absolute path; without it, the default one.
+    pub configuration: Option<PathBuf>,
+}
+
+/// What a run of one harness came to.
+#[derive(Clone, Debug)]
+pub struct Outcome {
+    /// The verdict.
+    pub verdict: Verdict,
+    /// Checks decided, without covers.
+    pub checks: usize,
+    /// Covers.
+    pub covers: usize,
+    /// How long it took, compilation included.
+    pub seconds: u64,
+    /// The solver that decided.
+    pub solver: Solver,
+    /// Versions of the tools.
+    pub tools: Tools,
+    /// What Kani exported, as it is.
+    pub export: Value,
+}
+
+/// Versions of the tools.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Tools {
+    /// Kani.
+    pub kani: String,
+    /// Its compiler.
+    pub rustc: String,
+    /// CBMC.
+    pub cbmc: String,
+    /// The solver, where it is a program of its own.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub solver: String,
+}
+
+impl Tools {
+    fn of(export: &Value) -> Self {
+        let text = |at: &str| export.pointer(at).and_then(Value::as_str).unwrap_or("").to_owned();
+        Self {
+            kani: text("/tools/kani"),
+            rustc: text("/tools/rustc"),
+            cbmc: text("/tools/cbmc"),
+            solver: text("/tools/solvers/0/version"),
+        }
+    }
+}
+
+/// Whether `cargo kani` is there.
+#[must_use]
+pub fn available() -> bool {
+    let mut command = Command::new("cargo");
+    command.args(["kani", "--version"]).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
+    command.status().is_ok_and(|status| status.success())
+}
+
+/// Runs one harness on the workspace at `root`; what is built, exported and said goes to `target`.
+///
+/// A time-out, a failed check and a vacuous proof are verdicts. Sources that do not compile are an error: a mistake
+/// that the compiler finds was not found by a proof.
+///
+/// # Errors
+/// A file or the tool fails, or Kani exports nothing for this harness.
+pub fn verify(root: &Path, target: &Path, harness: &Harness, options: &Options) -> Result<Outcome, ProveError> {
+    let solver = options.solver.unwrap_or(harness.solver);
+    let timeout = options.timeout.unwrap_or(Duration::from_secs(harness.timeout));
+    fs::create_dir_all(target).map_err(|error| file(target, error))?;
+    let export = target.join(format!("{}.json", harness.name));
+    // An old export would be read as this run's: it goes first.
+    if export.exists() {
+        fs::remove_file(&export).map_err(|error| file(&export, error))?;
+    }
+    let mut command = command(root, target, options.configuration.as_deref());
+    select(&mut command, harness, solver, timeout);
+    command.args(["--output-format", "terse", "--export-json"]).arg(&export);
+    let started = Instant::now();
+    let log = run(&mut command, &target.join(format!("{}.log", harness.name)))?;
+    let seconds = started.elapsed().as_secs();
+    if !export.exists() {
+        return Err(ProveError::NoResult { harness: harness.name.clone(), log: end(&read(&log)?) });
+    }
+    let json: Value = serde_json::from_str(&read(&export)?).map_err(|error| form(&export, &error))?;
+    let id = harness.id();
+    let Some(counts) = Counts::of(&json, &id) else {
+        return Err(ProveError::NoResult { harness: harness.name.clone(), log: end(&read(&log)?) });
+    };
+    Ok(Outcome {
+        verdict: judge(&json, &id),
+        checks: counts.checks,
+        covers: counts.covers,
+        seconds,
+        solver,
+        tools: Tools::of(&json),
+        export: json,
+    })
+}
+
+/// `cargo kani` for the package with the harnesses.
+fn command(root: &Path, target: &Path, configuration: Option<&Path>) -> Command {
+    let mut command = Command::new("cargo");
+    command.current_dir(root).args(["kani", "-p", PACKAGE, "--target-dir"]).arg(target);
+    match configuration {
+        Some(file) => command.env(CONFIGURATION, file),
+        None => command.env_remove(CONFIGURATION),
+    };
+    command
+}
+
+/// Chooses the harness and how it is decided.
+fn select(command: &mut Command, harness: &Harness, solver: Solver, timeout: Duration) {
+    command.args(["--exact", "--harness", &harness.id(), "-Z", "unstable-options"]);
+    command.args(["--solver", &solver.to_string(), "--harness-timeout", &format!("{}s", timeout.as_secs())]);
+    if harness.stubs {
+        command.args(["-Z", "stubbing"]);
+    }
+    if !harness.reach_checks {
+        command.arg("--no-assertion-reach-checks");
+    }
+}
+
+/// Runs it; everything it says goes to `log`.
+fn run(command: &mut Command, log: &Path) -> Result<PathBuf, ProveError> {
+    let said = File::create(log).map_err(|error| file(log, error))?;
+    let too = said.try_clone().map_err(|error| file(log, error))?;
+    command.stdin(Stdio::null()).stdout(said).stderr(too);
+    command.status().map_err(ProveError::Tool)?;
+    Ok(log.to_owned())
+}
+
+/// The last lines.
+fn end(log: &str) -> String {
+    let lines: Vec<&str> = log.lines().collect();
+    let skip = lines.len().saturating_sub(TOLD);
+    lines.into_iter().skip(skip).collect::<Vec<_>>().join("\n")
+}
+
+/// How many checks and covers a result has.
+struct Counts {
+    checks: usize,
+    covers: usize,
+}
+
+impl Counts {
+    fn of(export: &Value, harness: &str) -> Option<Self> {
+        let results = export.pointer("/verification_results/results").and_then(Value::as_array)?;
+        let named = |result: &&Value| result.get("harness_id").and_then(Value::as_str) == Some(harness);
+        let checks = results.iter().find(named)?.get("checks").and_then(Value::as_array)?;
+        let is_cover = |check: &&Value| check.get("category").and_then(Value::as_str) == Some("cover");
+        let covers = checks.iter().filter(is_cover).count();
+        Some(Self { checks: checks.len().saturating_sub(covers), covers })
+    }
+}
