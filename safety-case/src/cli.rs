@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use supervisor::{Record, ResetCause};
 
+use crate::mistakes::Shard;
 use crate::prove::Solver;
 
 const ABOUT: &str = "\
@@ -130,6 +131,13 @@ pub enum Command {
     /// stale; what was never run is shown as such. Without cargo kani it runs nothing, shows the committed record,
     /// and exits with 1 (with 0 by --check, if nothing is stale).
     Prove(Prove),
+    /// Plant mistakes in a copy of the sources and expect the proofs to fail
+    ///
+    /// The named ones of proofs/mistakes.toml, or with --drawn those that a seed draws from the list of cargo-mutants.
+    /// What the record already has for the present sources is not run again. Exits with 1 if a named mistake is not
+    /// caught by a proof on the present sources, or a drawn one survives without an explanation; with 4 if cargo kani
+    /// (or, for --drawn, cargo mutants) is not installed: nothing was run.
+    Mistakes(Mistakes),
     /// Trace every requirement to its code, limits, proofs and tests, by the ids in the sources
     #[command(long_about = TRACE)]
     Trace(TraceArgs),
@@ -311,6 +319,35 @@ pub struct Prove {
     /// Run nothing: show the record and whether it is stale
     #[arg(long)]
     pub check: bool,
+}
+
+/// Arguments of `mistakes`.
+#[derive(Debug, Args)]
+pub struct Mistakes {
+    /// Only these named mistakes
+    #[arg(long, value_name = "NAME", conflicts_with_all = ["drawn", "shard"])]
+    pub name: Vec<String>,
+    /// So many drawn mistakes instead of the named ones
+    #[arg(long, value_name = "COUNT")]
+    pub drawn: Option<usize>,
+    /// Another seed than that of the list
+    #[arg(long, value_name = "NUMBER", requires = "drawn")]
+    pub seed: Option<u64>,
+    /// Only the K-th of N parts
+    #[arg(long, value_name = "K/N", default_value = "1/1")]
+    pub shard: Shard,
+    /// How many at a time
+    #[arg(long, value_name = "COUNT", default_value_t = 2)]
+    pub jobs: usize,
+    /// Run again what the record already has for the present sources
+    #[arg(long)]
+    pub again: bool,
+    /// Run nothing: say what the record does not show on the present sources
+    #[arg(long, conflicts_with_all = ["name", "drawn", "shard", "again"])]
+    pub check: bool,
+    /// Run nothing: write the table of the record into this file, between its marks
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["name", "drawn", "shard", "again"])]
+    pub write: Option<PathBuf>,
 }
 
 /// Arguments of `cost`.
