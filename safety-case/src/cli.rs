@@ -102,6 +102,32 @@ The JSON document is described in safety-case/src/trace/json.rs.
 
 Exit codes: 0 no findings; 1 findings; 2 something cannot be read or written, or no such id.";
 
+const PROVE: &str = "\
+Runs the harnesses of proofs/harnesses.toml with Kani, each in an invocation of its own, side by side, the longest first, \
+and keeps proofs/record.json and, for each, what Kani exported: proofs/results. Both are committed.
+
+A harness counts as proved only if it succeeded, every check is decided, and it has covers that are all satisfied: Kani \
+itself ends well on a proof that shows nothing. It is stale when a token of the sources or the default configuration \
+changed since; comments and layout make nothing stale. --check judges every raw result again, and fails on whatever is \
+stale, failed, vacuous, undetermined, not run, listed but not there, there but not listed, and on a table of \
+proofs/README.md that is not that of the record.
+
+A counterexample becomes a test: `supervise prove --playback --harness NAME` writes target/kani/NAME-playback.rs. Paste \
+it at the end of the file that the harness stands in, and run
+  cargo kani playback -Z concrete-playback -p supervisor-proofs -- NAME
+It replays the values that Kani found through the harness, where they can be printed or debugged.
+
+Examples:
+  supervise prove                                    all of them, and the record
+  supervise prove --harness seat_4_epb_applied_in_leave
+  supervise prove --quick                            for CI: compiles all, proves some again
+  supervise prove --shard 2/4                        one part of four, on a machine of its own
+  supervise prove --merge part-*/record.json         the record out of all parts
+  supervise prove --config my.bin                    the kernels for your numbers; my.bin.proofs.json
+
+Exit codes: 0 everything that was asked for is proved; 1 it is not; 2 bad arguments or files, or the sources do not \
+compile; 4 cargo kani is not here, nothing was run.";
+
 /// The program.
 #[derive(Debug, Parser)]
 #[command(name = "supervise", version, about = "Replays drives through the bus safety supervisor", long_about = ABOUT, after_help = EXAMPLES)]
@@ -125,11 +151,7 @@ pub enum Command {
     /// Check the safety analysis and print what does not hold together
     Analysis(AnalysisArgs),
     /// Run the Kani harnesses, read the results as data, and keep the record
-    ///
-    /// A harness counts as proved only if it succeeded on the present sources and every cover is satisfied: Kani
-    /// itself ends with 0 on a proof that shows nothing. Exits with 1 if a harness failed, is vacuous, undetermined or
-    /// stale; what was never run is shown as such. Without cargo kani it runs nothing, shows the committed record,
-    /// and exits with 1 (with 0 by --check, if nothing is stale).
+    #[command(long_about = PROVE)]
     Prove(Prove),
     /// Plant mistakes in a copy of the sources and expect the proofs to fail
     ///
@@ -293,32 +315,57 @@ pub struct TraceArgs {
     pub html: Option<PathBuf>,
 }
 
-#[cfg(test)]
-mod tests {
-    use super::Cli;
-    use clap::CommandFactory;
-
-    #[test]
-    fn the_command_line_is_consistent() {
-        Cli::command().debug_assert();
-    }
-}
-
 /// Arguments of `prove`.
 #[derive(Debug, Args)]
 pub struct Prove {
     /// Only these harnesses (names of proofs/harnesses.toml)
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, value_name = "NAME", num_args = 1..)]
     pub harness: Vec<String>,
-    /// Only what took no longer than this when it was recorded
-    #[arg(long, value_name = "SECONDS")]
-    pub within: Option<u64>,
+    /// How many run at once; without it, one for each core
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    pub jobs: Option<u16>,
     /// Another solver than the list names
     #[arg(long, value_enum)]
     pub solver: Option<Solver>,
-    /// Run nothing: show the record and whether it is stale
+    /// Another limit for the solver than the list names
+    #[arg(long, value_name = "SECONDS")]
+    pub timeout: Option<u64>,
+    /// Part K of N of about the same time each; its record goes to target/kani/shard-K-of-N/record.json
+    #[arg(long, value_name = "K/N", value_parser = part, conflicts_with_all = ["quick", "check", "config", "merge"])]
+    pub shard: Option<(usize, usize)>,
+    /// Join the parts of all shards, each with the folder `results` beside it, into the record
+    #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with_all = ["quick", "check", "config"])]
+    pub merge: Vec<PathBuf>,
+    /// Compile all, run the key harnesses and a random tenth of the rest again, compare with the record
+    #[arg(long, conflicts_with_all = ["harness", "check", "config"])]
+    pub quick: bool,
+    /// Run nothing: show the record, and whether it is stale or its raw results say something else
     #[arg(long)]
     pub check: bool,
+    /// Show the list of harnesses
+    #[arg(long)]
+    pub list: bool,
+    /// Make tests of the counterexamples of harnesses that failed: target/kani/NAME-playback.rs
+    #[arg(long, conflicts_with_all = ["quick", "check", "shard", "merge"])]
+    pub playback: bool,
+    /// Prove for this sealed configuration what multiplies by configured numbers; the record is FILE.proofs.json
+    #[arg(long, value_name = "FILE")]
+    pub config: Option<PathBuf>,
+    /// Print the record as a table in Markdown
+    #[arg(long)]
+    pub table: bool,
+    /// Put the table into this file, between its marks
+    #[arg(long, value_name = "FILE", requires = "table")]
+    pub write: Option<PathBuf>,
+    /// The root of the project; without it, this project
+    #[arg(long, value_name = "FOLDER")]
+    pub root: Option<PathBuf>,
+}
+
+/// K of N, as in "2/3".
+fn part(text: &str) -> Result<(usize, usize), String> {
+    let numbers = text.split_once('/').and_then(|(shard, of)| Some((shard.parse().ok()?, of.parse().ok()?)));
+    numbers.filter(|(shard, of)| (1..=*of).contains(shard)).ok_or_else(|| "is not K/N with K from 1 to N".to_owned())
 }
 
 /// Arguments of `mistakes`.
@@ -362,4 +409,23 @@ pub struct Cost {
     /// One more argument for cargo when it builds for the target
     #[arg(long, value_name = "ARGUMENT", allow_hyphen_values = true)]
     pub cargo_arg: Vec<String>,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Cli, part};
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn a_shard_is_one_of_so_many() {
+        assert_eq!(part("2/3"), Ok((2, 3)));
+        for bad in ["0/3", "4/3", "1", "1/0", "a/b", "1/2/3"] {
+            assert!(part(bad).is_err(), "{bad}");
+        }
+    }
 }

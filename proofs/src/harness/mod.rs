@@ -1,6 +1,7 @@
 //! Kani harnesses. Names begin with the requirement; each ends in covers that show it is not vacuous.
 
 mod brake;
+mod configured;
 mod high_voltage;
 mod parking;
 mod supervisor;

@@ -1,5 +1,7 @@
 //! Reads the results that Kani exports.
 
+use std::fmt::{self, Display, Formatter};
+
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
@@ -15,6 +17,17 @@ pub enum Verdict {
     Vacuous(String),
     /// No verdict: time-out, undetermined checks, or no result at all.
     Undetermined(String),
+}
+
+impl Display for Verdict {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Proved => f.write_str("proved"),
+            Self::Failed(why) => write!(f, "FAILED: {why}"),
+            Self::Vacuous(why) => write!(f, "VACUOUS: {why}"),
+            Self::Undetermined(why) => write!(f, "UNDETERMINED: {why}"),
+        }
+    }
 }
 
 fn text<'a>(value: &'a Value, key: &str) -> &'a str {

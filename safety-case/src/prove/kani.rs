@@ -4,6 +4,7 @@
 //! ends, so the crash of one loses nothing of another. Two invocations at once need target directories of their own:
 //! each would build what the other has just built.
 
+use std::collections::BTreeSet;
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -15,6 +16,7 @@ use serde_json::Value;
 use super::error::{ProveError, file, form, read};
 use super::harness::{Harness, Solver};
 use super::judge::{Verdict, judge};
+use super::raw::Raw;
 
 /// The package with the harnesses.
 const PACKAGE: &str = "supervisor-proofs";
@@ -51,8 +53,8 @@ pub struct Outcome {
     pub solver: Solver,
     /// Versions of the tools.
     pub tools: Tools,
-    /// What Kani exported, as it is.
-    pub export: Value,
+    /// What Kani exported, without the machine it ran on.
+    pub raw: Raw,
 }
 
 /// Versions of the tools.
@@ -98,7 +100,6 @@ pub fn available() -> bool {
 /// A file or the tool fails, or Kani exports nothing for this harness.
 pub fn verify(root: &Path, target: &Path, harness: &Harness, options: &Options) -> Result<Outcome, ProveError> {
     let solver = options.solver.unwrap_or(harness.solver);
-    let timeout = options.timeout.unwrap_or(Duration::from_secs(harness.timeout));
     fs::create_dir_all(target).map_err(|error| file(target, error))?;
     let export = target.join(format!("{}.json", harness.name));
     // An old export would be read as this run's: it goes first.
@@ -106,7 +107,7 @@ pub fn verify(root: &Path, target: &Path, harness: &Harness, options: &Options) 
         fs::remove_file(&export).map_err(|error| file(&export, error))?;
     }
     let mut command = command(root, target, options.configuration.as_deref());
-    select(&mut command, harness, solver, timeout);
+    select(&mut command, harness, options);
     if options.assertions_only {
         command.arg("--no-default-checks");
     }
@@ -118,19 +119,59 @@ pub fn verify(root: &Path, target: &Path, harness: &Harness, options: &Options) 
         return Err(ProveError::NoResult { harness: harness.name.clone(), log: end(&read(&log)?) });
     }
     let json: Value = serde_json::from_str(&read(&export)?).map_err(|error| form(&export, &error))?;
+    let raw = Raw::of(&json, root);
+    let json = raw.export().map_err(|error| form(&export, &error))?;
     let id = harness.id();
-    let Some(counts) = Counts::of(&json, &id) else {
+    let Some((checks, covers)) = counts(&json, &id) else {
         return Err(ProveError::NoResult { harness: harness.name.clone(), log: end(&read(&log)?) });
     };
-    Ok(Outcome {
-        verdict: judge(&json, &id),
-        checks: counts.checks,
-        covers: counts.covers,
-        seconds,
-        solver,
-        tools: Tools::of(&json),
-        export: json,
-    })
+    Ok(Outcome { verdict: judge(&json, &id), checks, covers, seconds, solver, tools: Tools::of(&json), raw })
+}
+
+/// Compiles every harness; the names of those that Kani knows.
+///
+/// # Errors
+/// A file or the tool fails, or the sources do not compile.
+pub fn compile(root: &Path, target: &Path, options: &Options) -> Result<BTreeSet<String>, ProveError> {
+    fs::create_dir_all(target).map_err(|error| file(target, error))?;
+    // Kani writes its list into the folder it runs in.
+    let list = target.join("kani-list.json");
+    if list.exists() {
+        fs::remove_file(&list).map_err(|error| file(&list, error))?;
+    }
+    let mut command = command(root, target, options.configuration.as_deref());
+    command.current_dir(target).arg("--manifest-path").arg(root.join("Cargo.toml"));
+    let log = run(command.args(["list", "--format", "json"]), &target.join("kani-list.log"))?;
+    if !list.exists() {
+        return Err(ProveError::NoResult { harness: "the list of harnesses".to_owned(), log: end(&read(&log)?) });
+    }
+    let json: Value = serde_json::from_str(&read(&list)?).map_err(|error| form(&list, &error))?;
+    let kinds = ["standard-harnesses", "contract-harnesses"];
+    let files =
+        kinds.iter().filter_map(|kind| json.get(kind).and_then(Value::as_object)).flat_map(|files| files.values());
+    Ok(files.filter_map(Value::as_array).flatten().filter_map(Value::as_str).map(str::to_owned).collect())
+}
+
+/// Runs a harness that fails once more, for the counterexample; the tests that Kani makes of it, each one a function to
+/// paste beside the harness. Empty if it fails no check that a test could show.
+///
+/// # Errors
+/// A file or the tool fails.
+pub fn playback(root: &Path, target: &Path, harness: &Harness, options: &Options) -> Result<Vec<String>, ProveError> {
+    fs::create_dir_all(target).map_err(|error| file(target, error))?;
+    let mut command = command(root, target, options.configuration.as_deref());
+    select(&mut command, harness, options);
+    command.args(["-Z", "concrete-playback", "--concrete-playback=print"]);
+    let log = run(&mut command, &target.join(format!("{}-playback.log", harness.name)))?;
+    Ok(tests_in(&read(&log)?))
+}
+
+/// The tests that Kani printed, without those that only show how a cover is reached.
+fn tests_in(log: &str) -> Vec<String> {
+    let fenced = log.split("```").skip(1).step_by(2);
+    let tests =
+        fenced.map(str::trim).filter(|test| test.contains("#[test]") && !test.contains("/// Check for `cover`"));
+    tests.map(str::to_owned).collect()
 }
 
 /// `cargo kani` for the package with the harnesses.
@@ -145,7 +186,9 @@ fn command(root: &Path, target: &Path, configuration: Option<&Path>) -> Command 
 }
 
 /// Chooses the harness and how it is decided.
-fn select(command: &mut Command, harness: &Harness, solver: Solver, timeout: Duration) {
+fn select(command: &mut Command, harness: &Harness, options: &Options) {
+    let solver = options.solver.unwrap_or(harness.solver);
+    let timeout = options.timeout.unwrap_or(Duration::from_secs(harness.timeout));
     command.args(["--exact", "--harness", &harness.id(), "-Z", "unstable-options"]);
     command.args(["--solver", &solver.to_string(), "--harness-timeout", &format!("{}s", timeout.as_secs())]);
     if harness.stubs {
@@ -172,19 +215,40 @@ fn end(log: &str) -> String {
     lines.into_iter().skip(skip).collect::<Vec<_>>().join("\n")
 }
 
-/// How many checks and covers a result has.
-struct Counts {
-    checks: usize,
-    covers: usize,
+/// How many checks and covers the result of a harness has.
+#[must_use]
+pub fn counts(export: &Value, harness: &str) -> Option<(usize, usize)> {
+    let results = export.pointer("/verification_results/results").and_then(Value::as_array)?;
+    let named = |result: &&Value| result.get("harness_id").and_then(Value::as_str) == Some(harness);
+    let checks = results.iter().find(named)?.get("checks").and_then(Value::as_array)?;
+    let is_cover = |check: &&Value| check.get("category").and_then(Value::as_str) == Some("cover");
+    let covers = checks.iter().filter(is_cover).count();
+    Some((checks.len().saturating_sub(covers), covers))
 }
 
-impl Counts {
-    fn of(export: &Value, harness: &str) -> Option<Self> {
-        let results = export.pointer("/verification_results/results").and_then(Value::as_array)?;
-        let named = |result: &&Value| result.get("harness_id").and_then(Value::as_str) == Some(harness);
-        let checks = results.iter().find(named)?.get("checks").and_then(Value::as_array)?;
-        let is_cover = |check: &&Value| check.get("category").and_then(Value::as_str) == Some("cover");
-        let covers = checks.iter().filter(is_cover).count();
-        Some(Self { checks: checks.len().saturating_sub(covers), covers })
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    #[test]
+    fn covers_are_counted_apart() {
+        let check = |category: &str| json!({"category": category});
+        let checks = [check("assertion"), check("cover"), check("overflow")];
+        let export = json!({"verification_results": {"results": [{"harness_id": "h", "checks": checks}]}});
+        assert_eq!(counts(&export, "h"), Some((2, 1)));
+        assert_eq!(counts(&export, "other"), None);
+    }
+
+    #[test]
+    fn only_tests_of_failed_checks_are_counterexamples() {
+        let test = |kind: &str| {
+            format!(
+                "Concrete playback unit test for `h`:\n```\n/// Check for `{kind}`: \"d\"\n#[test]\nfn t() {{}}\n```\n"
+            )
+        };
+        let log = format!("said\n{}between\n{}end\n", test("cover"), test("assertion"));
+        assert_eq!(tests_in(&log), ["/// Check for `assertion`: \"d\"\n#[test]\nfn t() {}"]);
+        assert!(tests_in("nothing").is_empty());
     }
 }

@@ -1,113 +1,95 @@
-//! Runs `cargo kani`, one harness at a time, and keeps the record.
+//! Runs harnesses side by side: each worker has a target directory of its own and takes the next one.
 
+use std::collections::VecDeque;
 use std::path::Path;
+use std::sync::Mutex;
+use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
+use std::thread;
+use std::time::Duration;
 
 use super::error::ProveError;
-use super::harness::{Harness, List, Solver};
-use super::judge::Verdict;
-use super::kani::{self, Tools};
-use super::record::{Proof, Record, sources_digest};
+use super::harness::Harness;
+use super::kani::{self, Options, Outcome};
+use super::progress::Progress;
+use super::record::Record;
 
-/// What to run.
-#[derive(Clone, Debug, Default)]
-pub struct Request {
-    /// Only these; all if empty.
-    pub harnesses: Vec<String>,
-    /// Only what took no longer than this when it was recorded, in seconds.
-    pub within: Option<u64>,
-    /// Run nothing: show the record and whether it is stale.
-    pub check: bool,
-    /// The solver. Always named: Kani's default falls back silently where it is not there.
-    pub solver: Option<Solver>,
+/// The display is brought up to date so often.
+const TICK: Duration = Duration::from_secs(1);
+
+/// How harnesses run.
+#[derive(Debug)]
+pub struct Workers<'a> {
+    /// The workspace.
+    pub root: &'a Path,
+    /// Each worker builds in a folder of this one.
+    pub target: &'a Path,
+    /// How many run at once.
+    pub jobs: usize,
+    /// How each of them runs.
+    pub options: &'a Options,
 }
 
-/// Runs the chosen harnesses, updates the record, tells `say` of each line; the number of harnesses that ran and are
-/// not proved on the present sources. What was never run is told as open, and is no failure.
-///
-/// # Errors
-/// A file or the tool fails; a harness is unknown.
-pub fn prove(root: &Path, options: &Request, say: &mut impl FnMut(&str)) -> Result<usize, ProveError> {
-    let list = List::load(root)?;
-    let mut record = Record::load(root)?;
-    let sources = sources_digest(root)?;
-    if let Some(name) = options.harnesses.iter().find(|name| !list.harness.iter().any(|harness| harness.name == **name))
-    {
-        return Err(ProveError::Unknown(name.clone()));
+enum Event {
+    Begun(usize),
+    Ended(usize, Box<Result<Outcome, ProveError>>),
+}
+
+impl Workers<'_> {
+    /// Runs these harnesses in this order, and hands over what each came to as soon as it ended, with a way to say lines
+    /// that does not disturb the display. A harness without a result stops no other.
+    ///
+    /// # Errors
+    /// The first one of `ended`; what runs then still ends, and nothing new begins.
+    pub fn run(
+        &self,
+        harnesses: &[&Harness],
+        record: &Record,
+        mut ended: impl FnMut(&Harness, Result<Outcome, ProveError>, &Progress) -> Result<(), ProveError>,
+    ) -> Result<(), ProveError> {
+        let jobs = self.jobs.clamp(1, harnesses.len().max(1));
+        let queue = Mutex::new((0..harnesses.len()).collect::<VecDeque<usize>>());
+        let mut progress = Progress::start(harnesses, record, jobs);
+        let (sender, events) = channel();
+        thread::scope(|scope| {
+            for worker in 0..jobs {
+                let (sender, queue) = (sender.clone(), &queue);
+                scope.spawn(move || self.work(worker, harnesses, queue, &sender));
+            }
+            drop(sender);
+            let mut outcome = Ok(());
+            loop {
+                match events.recv_timeout(TICK) {
+                    Ok(Event::Begun(index)) => progress.begin(index),
+                    Ok(Event::Ended(index, result)) => {
+                        progress.end(index);
+                        if let (Some(harness), true) = (harnesses.get(index), outcome.is_ok()) {
+                            outcome = ended(harness, *result, &progress);
+                        }
+                        if outcome.is_err()
+                            && let Ok(mut queue) = queue.lock()
+                        {
+                            queue.clear();
+                        }
+                    }
+                    Err(RecvTimeoutError::Timeout) => progress.show(),
+                    Err(RecvTimeoutError::Disconnected) => break,
+                }
+            }
+            progress.finish();
+            outcome
+        })
     }
-    if !options.check {
-        let chosen: Vec<&Harness> =
-            list.harness.iter().filter(|harness| is_chosen(harness, options, &record)).collect();
-        for (index, harness) in chosen.iter().enumerate() {
-            say(&format!("[{}/{}] {} ...", index.saturating_add(1), chosen.len(), harness.name));
-            let (proof, tools) = run(root, harness, options.solver, &sources)?;
-            say(&format!(
-                "        {} in {} s, {} checks, {} covers",
-                word(&proof.verdict),
-                proof.seconds,
-                proof.checks,
-                proof.covers
-            ));
-            record.put(proof, &list);
-            record.tools = tools;
-            record.save(root)?;
+
+    fn work(&self, worker: usize, harnesses: &[&Harness], queue: &Mutex<VecDeque<usize>>, events: &Sender<Event>) {
+        let target = self.target.join(worker.to_string());
+        loop {
+            let next = queue.lock().ok().and_then(|mut queue| queue.pop_front());
+            let Some((index, harness)) = next.and_then(|index| Some((index, harnesses.get(index)?))) else { return };
+            let begun = events.send(Event::Begun(index));
+            let result = kani::verify(self.root, &target, harness, self.options);
+            if begun.and_then(|()| events.send(Event::Ended(index, Box::new(result)))).is_err() {
+                return;
+            }
         }
     }
-    Ok(show(&list, &record, &sources, say))
-}
-
-fn is_chosen(harness: &Harness, options: &Request, record: &Record) -> bool {
-    let named = options.harnesses.is_empty() || options.harnesses.contains(&harness.name);
-    let quick = |within| record.of(&harness.name).is_some_and(|proof| proof.seconds <= within);
-    named && options.within.is_none_or(quick)
-}
-
-fn word(verdict: &Verdict) -> String {
-    match verdict {
-        Verdict::Proved => "proved".to_owned(),
-        Verdict::Failed(why) => format!("FAILED: {why}"),
-        Verdict::Vacuous(why) => format!("VACUOUS: {why}"),
-        Verdict::Undetermined(why) => format!("UNDETERMINED: {why}"),
-    }
-}
-
-/// Shows every harness of the list with what the record says of it; counts what ran and is not proved now.
-fn show(list: &List, record: &Record, sources: &str, say: &mut impl FnMut(&str)) -> usize {
-    let (mut proved, mut bad) = (0_usize, 0_usize);
-    say("");
-    for harness in &list.harness {
-        let line = match record.of(&harness.name) {
-            _ if harness.open.is_some() => format!("OPEN: {}", harness.open.as_deref().unwrap_or("")),
-            None => "stated, NOT RUN".to_owned(),
-            Some(proof) if proof.sources != sources => format!("STALE (was: {})", word(&proof.verdict)),
-            Some(proof) => format!("{} ({}, {} s)", word(&proof.verdict), proof.extent, proof.seconds),
-        };
-        if line.starts_with("proved") {
-            proved = proved.saturating_add(1);
-        } else if !line.starts_with("stated") && !line.starts_with("OPEN") {
-            bad = bad.saturating_add(1);
-        }
-        say(&format!("{:<52} {line}", harness.name));
-    }
-    let open = list.harness.len().saturating_sub(proved).saturating_sub(bad);
-    say(&format!(
-        "{proved} proved on the present sources, {bad} failed, vacuous, undetermined or stale, {open} open or not run"
-    ));
-    bad
-}
-
-fn run(root: &Path, harness: &Harness, solver: Option<Solver>, sources: &str) -> Result<(Proof, Tools), ProveError> {
-    let options = kani::Options { solver, ..kani::Options::default() };
-    let outcome = kani::verify(root, &root.join("target/kani/0"), harness, &options)?;
-    let proof = Proof {
-        name: harness.name.clone(),
-        requirements: harness.requirements.clone(),
-        extent: harness.extent.clone(),
-        verdict: outcome.verdict,
-        checks: outcome.checks,
-        covers: outcome.covers,
-        solver: outcome.solver,
-        seconds: outcome.seconds,
-        sources: sources.to_owned(),
-    };
-    Ok((proof, outcome.tools))
 }

@@ -10,7 +10,7 @@ use super::TraceError;
 use super::id::Id;
 use super::scan::{Kind, Place, Scan, Tag};
 use crate::analysis::{Analysis, Method, Requirement};
-use crate::prove::{Harness, List, Record, Verdict, sources_digest};
+use crate::prove::{Harness, List, RECORD, Record, Verdict, sources_digest};
 
 /// The greatest work package that must be complete.
 const LAST_PACKAGE: u8 = 2;
@@ -188,7 +188,7 @@ impl Proofs {
         }
         let text = fs::read_to_string(&path).map_err(|error| TraceError::File { path, error })?;
         let list = List::load(root)?;
-        let record = Record::load(root)?;
+        let record = Record::load(&root.join(RECORD))?;
         let sources = if record.proofs.is_empty() { String::new() } else { sources_digest(root)? };
         let listed = list.harness.into_iter().map(|harness| {
             let (proved, words) = verdict(&harness, &record, &sources);

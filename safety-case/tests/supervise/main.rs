@@ -2,6 +2,7 @@
 
 mod commands;
 mod common;
+mod prove;
 mod replay;
 mod robust;
 mod trace;

@@ -1,0 +1,16 @@
+//! The configuration of the harnesses that multiply by configured numbers: the default one, or the one for which
+//! `supervise prove --config` builds them (see `proofs/build.rs`).
+
+use supervisor_core::{Config, Words};
+
+include!(concat!(env!("OUT_DIR"), "/configured.rs"));
+
+/// The configuration to prove for.
+pub(super) fn configured() -> Config {
+    let Some(words) = WORDS else { return Config::DEFAULT };
+    let mut words = words.into_iter();
+    let config = Config::read(&mut || words.next());
+    // The build took the words from a sealed configuration: a proof must not end well where they are none.
+    assert!(config.is_some());
+    config.unwrap_or(Config::DEFAULT)
+}
