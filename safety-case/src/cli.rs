@@ -5,7 +5,6 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use supervisor::{Record, ResetCause};
 
-use crate::mistakes::Shard;
 use crate::prove::Solver;
 
 const ABOUT: &str = "\
@@ -381,8 +380,8 @@ pub struct Mistakes {
     #[arg(long, value_name = "NUMBER", requires = "drawn")]
     pub seed: Option<u64>,
     /// Only the K-th of N parts
-    #[arg(long, value_name = "K/N", default_value = "1/1")]
-    pub shard: Shard,
+    #[arg(long, value_name = "K/N", value_parser = part)]
+    pub shard: Option<(usize, usize)>,
     /// How many at a time
     #[arg(long, value_name = "COUNT", default_value_t = 2)]
     pub jobs: usize,

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use super::{FINDINGS, NOT_RUN, Outcome, print};
 use crate::cli::Mistakes;
-use crate::mistakes::{Kani, List, Record, Request, block, check, replaced, run as plant};
+use crate::mistakes::{Kani, List, Record, Request, Shard, block, check, replaced, run as plant};
 use crate::{mistakes, prove};
 
 pub(super) fn run(arguments: &Mistakes) -> Outcome {
@@ -21,7 +21,7 @@ pub(super) fn run(arguments: &Mistakes) -> Outcome {
             names: arguments.name.clone(),
             drawn: arguments.drawn,
             seed: arguments.seed,
-            shard: arguments.shard,
+            shard: arguments.shard.map_or(Shard::WHOLE, Shard::new),
             jobs: arguments.jobs.max(1),
             again: arguments.again,
         };
