@@ -93,7 +93,12 @@ impl Queue {
 /// # Errors
 /// The list is wrong, a file or a tool fails, or the sources change while it runs. What ran before is in the record.
 pub fn run(root: &Path, request: &Request, prover: &impl Prover, say: &mut impl FnMut(&str)) -> Result<(), ProveError> {
-    let (list, harnesses) = (List::load(root)?, Harnesses::load(root)?);
+    let (mut list, harnesses) = (List::load(root)?, Harnesses::load(root)?);
+    let order: Vec<String> = list.mistake.iter().map(|mistake| mistake.name.clone()).collect();
+    if let Some(name) = request.names.iter().find(|name| !order.contains(name)) {
+        return Err(ProveError::Arguments(format!("no mistake named {name} in proofs/mistakes.toml")));
+    }
+    list.mistake.retain(|mistake| request.names.is_empty() || request.names.contains(&mistake.name));
     let findings = list.findings(root, &harnesses);
     if !findings.is_empty() {
         return Err(ProveError::Arguments(findings.join("\n")));
@@ -101,13 +106,14 @@ pub fn run(root: &Path, request: &Request, prover: &impl Prover, say: &mut impl 
     let mut record = Record::load(root)?;
     let sources = sources_digest(root)?;
     let (tasks, order, wanted) = match request.drawn {
-        None => named(root, request, &list, &harnesses, &record, &sources)?,
+        None => named(root, request, order, &list, &harnesses, &record, &sources)?,
         Some(count) => drawn(root, request, count, &list, &harnesses, &mut record, &sources)?,
     };
     let total = wanted.min(tasks.len());
     say(&format!("{total} to plant, {} at a time", request.jobs));
     let queue = Mutex::new(Queue { tasks: tasks.into(), wanted });
-    let folder = root.join("target/mistakes");
+    let target = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root.join("target"), |folder| root.join(folder));
+    let folder = target.join("mistakes");
     let mut done = 0_usize;
     std::thread::scope(|scope| {
         let (sender, results) = channel();
@@ -138,17 +144,11 @@ pub fn run(root: &Path, request: &Request, prover: &impl Prover, say: &mut impl 
     })
 }
 
-type Result1 = Result<(Entry, Option<Tools>), ProveError>;
+/// A mistake as it ran, with the versions of the tools.
+type Ran = Result<(Entry, Option<Tools>), ProveError>;
 
 /// One worker: its own copy, until nothing is left.
-fn work(
-    root: &Path,
-    folder: &Path,
-    queue: &Mutex<Queue>,
-    prover: &impl Prover,
-    sources: &str,
-    results: &Sender<Result1>,
-) {
+fn work(root: &Path, folder: &Path, queue: &Mutex<Queue>, prover: &impl Prover, sources: &str, results: &Sender<Ran>) {
     let copy = match Copy::new(root, folder) {
         Ok(copy) => copy,
         Err(error) => return drop(results.send(Err(error))),
@@ -189,17 +189,13 @@ type Work = (Vec<Task>, Vec<String>, usize);
 fn named(
     root: &Path,
     request: &Request,
+    order: Vec<String>,
     list: &List,
     harnesses: &Harnesses,
     record: &Record,
     sources: &str,
 ) -> Result<Work, ProveError> {
-    let order: Vec<String> = list.mistake.iter().map(|mistake| mistake.name.clone()).collect();
-    if let Some(name) = request.names.iter().find(|name| !order.contains(name)) {
-        return Err(ProveError::Arguments(format!("no mistake named {name} in proofs/mistakes.toml")));
-    }
     let chosen = list.mistake.iter().filter(|mistake| mistake.survives.is_none());
-    let chosen = chosen.filter(|mistake| request.names.is_empty() || request.names.contains(&mistake.name));
     let mut tasks = Vec::new();
     for mistake in request.shard.part(chosen) {
         let change = mistake.change(root)?;
