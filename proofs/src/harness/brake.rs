@@ -7,9 +7,11 @@ use crate::properties::brake::{brake_never_below_obligation, rsp_1_retarder_help
 use crate::properties::drive::{
     self_10_bypass_is_answered, trq_7_excess_is_answered, vlc_1_mode_not_configured_commands_nothing,
 };
+use crate::properties::mitigation::rxn_1_same_cycle;
 use crate::properties::parking::epb_1_parking_brake_helps;
 
-/// SEAT-3, MIT-1 to MIT-4: the service brake is never below an obligation, whatever the command.
+/// SEAT-3, MIT-1 to MIT-4, RXN-1: the service brake is never below an obligation, whatever the command, from the cycle in
+/// which it begins.
 #[kani::proof]
 #[kani::unwind(17)]
 fn mit_4_brake_never_below_obligation() {
@@ -17,7 +19,9 @@ fn mit_4_brake_never_below_obligation() {
     let outputs = Outputs { brake: vet_brake(&any.decided.envelope, kani::any()).0, ..kani::any() };
     let cycle = any.cycle(&outputs);
     assert!(brake_never_below_obligation(&cycle));
+    assert!(rxn_1_same_cycle(&cycle));
     kani::cover!(any.decided.state.mitigation.three, "level 3");
+    kani::cover!(any.decided.state.mitigation.three && !any.old.mitigation.running(), "level 3 begins");
     kani::cover!(any.decided.state.seat.leave, "leave");
 }
 

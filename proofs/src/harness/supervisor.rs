@@ -1,17 +1,19 @@
 //! The supervisor itself: state at rest, boot, safe state, record (SELF).
 
 use supervisor_core::{
-    Commands, EpbRequest, Outputs, Percent, Record, ResetCause, STATE_WORDS, State, StateImage, record, vet_contactors,
-    vet_drive, vet_epb, vet_gear, vet_mode, vet_warnings,
+    Commands, EpbRequest, Outputs, Percent, Record, ResetCause, STATE_WORDS, State, StateImage, decide, record, vet,
+    vet_brake, vet_contactors, vet_drive, vet_epb, vet_gear, vet_mode, vet_steering, vet_warnings,
 };
 
 use super::Any;
-use crate::properties::boot::self_9_boot;
+use crate::properties::boot::{self_9_boot, self_9_boot_exactly, self_9_record_survives};
 use crate::properties::drive::no_torque_under_obligation;
 use crate::properties::gear::seat_6_neutral;
 use crate::properties::high_voltage::self_7_contactor_fault_closes_nothing;
 use crate::properties::supervisor::{
-    self_5_safe_state, self_6_flow_fault_is_the_safe_state, self_7_latched, self_7_quiet_counts_real_time,
+    self_5_brake_in_the_safe_state, self_5_request_passes_in_the_safe_state, self_5_safe_state,
+    self_5_steering_in_the_safe_state, self_6_flow_fault_is_the_safe_state, self_7_latched,
+    self_7_quiet_counts_real_time,
 };
 
 /// SELF-5: what is put to rest comes back.
@@ -39,6 +41,8 @@ fn self_9_boot_leaves_nothing_permitted() {
     let (cause, persisted): (ResetCause, Option<Record>) = (kani::any(), kani::any());
     let state = State::boot(cause, persisted);
     assert!(self_9_boot(&state, persisted));
+    assert!(self_9_boot_exactly(&state, cause, persisted));
+    assert!(self_9_record_survives(&kani::any(), cause));
     kani::cover!(state.parking.by_leave, "a record parks by leave");
 }
 
@@ -85,4 +89,49 @@ fn seat_4_record_is_total_and_keeps_the_latch() {
     assert!(next.high_voltage == any.decided.state.high_voltage && next.seat == any.decided.state.seat);
     kani::cover!(next.parking.by_leave, "parked by leave stays");
     kani::cover!(any.decided.state.parking.by_leave && released, "a release ends it");
+}
+
+/// SELF-5d, SELF-5g: how the safe state brakes, and that steering fades.
+#[kani::proof]
+#[kani::unwind(17)]
+fn self_5_safe_state_brakes_and_fades() {
+    let any = Any::new();
+    let envelope = &any.decided.envelope;
+    let outputs = Outputs {
+        brake: vet_brake(envelope, any.commands.brake).0,
+        steering: vet_steering(envelope, any.commands.steering).0,
+        ..kani::any()
+    };
+    let cycle = any.cycle(&outputs);
+    assert!(self_5_brake_in_the_safe_state(&cycle));
+    assert!(self_5_request_passes_in_the_safe_state(&cycle));
+    assert!(self_5_steering_in_the_safe_state(&cycle));
+    let safe = cycle.safe_state();
+    kani::cover!(
+        safe && cycle.vacant() && !any.decided.state.seat.leave && cycle.known_speeds().is_some(),
+        "empty seat"
+    );
+    kani::cover!(safe && outputs.steering.weight > Percent::ZERO, "steering fades");
+    kani::cover!(safe && outputs.brake.total > envelope.brake.floor.most, "a request brakes more than is obliged");
+}
+
+/// SELF-3a: equal state, time, inputs and commands give an equal decision.
+#[kani::proof]
+#[kani::unwind(17)]
+fn self_3_deterministic() {
+    let any = Any::new();
+    let again = decide(&any.old, any.now, &any.inputs, &any.threat, &any.response, &any.config);
+    assert!(any.decided.state == again.state && any.decided.faults == again.faults);
+    assert!(any.decided.envelope == again.envelope);
+    kani::cover!(again.state.seat.leave, "leave");
+}
+
+/// SELF-3a: and equal envelope and commands an equal verdict, on every channel.
+#[kani::proof]
+#[kani::unwind(17)]
+fn self_3_vet_deterministic() {
+    let (envelope, commands) = (kani::any(), kani::any());
+    let (first, again) = (vet(&envelope, &commands), vet(&envelope, &commands));
+    assert!(first.0 == again.0 && first.1 == again.1);
+    kani::cover!(first.0.drive.torque > Percent::ZERO, "torque passes");
 }

@@ -1,7 +1,11 @@
-//! Torque, mode and target speed (TRQ, MODE, SPD, VLC-1).
+//! Torque (TRQ, VLC-1, SELF-11a).
 
-use supervisor_core::{Deviation, DrivingMode, Origin, Percent};
+use supervisor_core::{
+    Count, DecelMs2Q11, Deviation, DriveTorque, DrivingMode, Gear, GearRequest, Level, Mode, Origin, Percent, Stage,
+    Timer, kernel,
+};
 
+use super::reading::{accelerator, agreed_speeds, both_pedals, brake_released, confirmed, obliged, ticks};
 use super::{Cycle, Property, all, implies};
 
 /// Every property of this file.
@@ -9,7 +13,16 @@ pub const ALL: &[Property] = all![
     no_torque_under_obligation,
     trq_7_excess_is_answered,
     self_10_bypass_is_answered,
-    vlc_1_mode_not_configured_commands_nothing
+    vlc_1_mode_not_configured_commands_nothing,
+    trq_1_pedal_governs,
+    trq_2_automated_torque_needs_all,
+    trq_5_within_limit_and_ramp,
+    trq_5_counts_from_our_last_output,
+    trq_5_release_after_leave,
+    trq_6_hill_hold,
+    trq_6_hill_hold_counts_real_time,
+    self_11_torque_is_exactly_bounded,
+    e2e_2_lost_drive_command
 ];
 
 /// SEAT-2a, MIT-5a, SELF-5c: no drive torque while leave, a mitigation latch or the safe state runs.
@@ -43,4 +56,204 @@ pub fn vlc_1_mode_not_configured_commands_nothing(cycle: &Cycle<'_>) -> bool {
     let by_epbi = cycle.config.longitudinal_mode.raw() != 0;
     implies(drive.origin == Origin::Adas && by_epbi, drive.torque == Percent::ZERO)
         && implies(drive.origin == Origin::Epbi && !by_epbi, drive.torque == Percent::ZERO)
+}
+
+/// What is asked for, if it may be used.
+fn asked(cycle: &Cycle<'_>) -> Option<DriveTorque> {
+    cycle.commands.drive.usable(cycle.config.timeout_50).ok()
+}
+
+/// A torque goes out.
+fn flows(cycle: &Cycle<'_>) -> bool {
+    cycle.outputs.drive.torque > Percent::ZERO
+}
+
+/// A deceleration goes out, by service brake or retarder.
+fn brakes(cycle: &Cycle<'_>) -> bool {
+    cycle.envelope.brake.total(cycle.outputs) > DecelMs2Q11::ZERO
+}
+
+/// TRQ-1: the most that the accelerator asks for: the map, linear between its points 10 % apart, and its tolerance from
+/// where the pedal counts as pressed. Nothing where it is unknown or the brake pedal is, or may be, pressed too.
+fn by_pedal(cycle: &Cycle<'_>) -> u8 {
+    let Some(travel) = accelerator(cycle).filter(|_| !both_pedals(cycle)) else { return 0 };
+    let map = &cycle.config.pedal_map.0;
+    let (before, rest) = (usize::from(travel / 25), travel % 25);
+    let point = |index: usize| map.get(index.min(10)).map_or(0, |torque| torque.raw());
+    let torque = kernel::between_down(point(before), point(before + 1), rest, 25);
+    let tolerance = if travel > cycle.config.pedal_pressed.raw() { cycle.config.pedal_tolerance.raw() } else { 0 };
+    torque.saturating_add(tolerance).min(100)
+}
+
+/// TRQ-5b, CMD-3f: our last output and what the gradient adds to it in this cycle.
+fn ramp(cycle: &Cycle<'_>) -> u8 {
+    let drive = &cycle.old.drive;
+    let (rise, _) = drive.rest.portion(cycle.config.torque_ramp.raw(), ticks(cycle).permission);
+    u8::try_from(u32::from(drive.torque.raw()).saturating_add(rise).min(100)).unwrap_or(100)
+}
+
+/// TRQ-1a, TRQ-1b, TRQ-1c, TRQ-4f: what the driver asks for, and whoever asks while the driver overrides, gets no more
+/// than the accelerator says.
+#[must_use]
+pub fn trq_1_pedal_governs(cycle: &Cycle<'_>) -> bool {
+    let driver = cycle.outputs.drive.origin == Origin::Driver || cycle.new.drive.mode == Mode::Suspended;
+    implies(driver, cycle.outputs.drive.torque.raw() <= by_pedal(cycle))
+}
+
+/// TRQ-2a to TRQ-2e, TRQ-3a: torque that the driver did not ask for passes only active, in the granted mode, with
+/// perception known and no obstacle, no obligation, the brake pedal known released, and within our acceleration bound.
+#[must_use]
+pub fn trq_2_automated_torque_needs_all(cycle: &Cycle<'_>) -> bool {
+    let out = &cycle.outputs.drive;
+    let active = asked(cycle).is_some_and(|asked| asked.active && asked.origin == out.origin);
+    let granted = cycle.new.drive.mode != Mode::Manual
+        && cycle.outputs.mode == DrivingMode::Automated
+        && cycle.inputs.cruise_switch.is(true);
+    let clear = cycle.threat.known && cycle.threat.level == Level::None;
+    implies(
+        flows(cycle) && out.origin != Origin::Driver,
+        out.active
+            && active
+            && granted
+            && clear
+            && !obliged(cycle)
+            && brake_released(cycle)
+            && out.torque <= cycle.config.automated_torque,
+    )
+}
+
+/// TRQ-5a, TRQ-5b, TRQ-5c, RSP-1n: never beyond the electric limit, nothing while it is unknown; no steeper rise than
+/// the gradient, but EPBi's begins at the idle torque; no rise at all while slip control works or may; and what falls,
+/// falls.
+#[must_use]
+pub fn trq_5_within_limit_and_ramp(cycle: &Cycle<'_>) -> bool {
+    let out = cycle.outputs.drive;
+    let limit = cycle.inputs.drive_limit.known().filter(|limit| limit.raw() <= 100).unwrap_or(Percent::ZERO);
+    let idle = if out.origin == Origin::Epbi { cycle.config.idle_torque.raw() } else { 0 };
+    out.torque <= limit
+        && out.torque.raw() <= ramp(cycle).max(idle)
+        && implies(!cycle.inputs.asr.is(false), out.torque <= cycle.old.drive.torque)
+        && out.torque <= asked(cycle).map_or(Percent::ZERO, |asked| asked.torque)
+}
+
+/// TRQ-5b, TRQ-5d, CMD-3f: the gradient counts from what went out, also from the 0 of an obligation, and what it leaves
+/// below 1 % is kept, no more.
+#[must_use]
+pub fn trq_5_counts_from_our_last_output(cycle: &Cycle<'_>) -> bool {
+    let (old, new, next) = (&cycle.old.drive, &cycle.new.drive, &cycle.next.drive);
+    let (_, rest) = old.rest.portion(cycle.config.torque_ramp.raw(), ticks(cycle).permission);
+    new.torque == old.torque && next.torque == cycle.outputs.drive.torque && next.rest == rest
+}
+
+/// TRQ-5e: after leave, and after a drive that did not obey, no torque until the accelerator was seen released.
+#[must_use]
+pub fn trq_5_release_after_leave(cycle: &Cycle<'_>) -> bool {
+    let released = accelerator(cycle).is_some_and(|travel| travel <= cycle.config.pedal_pressed.raw());
+    let begins = cycle.new.seat.leave || cycle.response.torque != Deviation::None;
+    let needed = begins || (cycle.old.drive.release_needed && !released);
+    cycle.new.drive.release_needed == needed
+        && cycle.next.drive.release_needed == needed
+        && implies(needed, !flows(cycle))
+}
+
+/// TRQ-6b: torque may act against the brake: the driver confirmed, slow, and the time not used up.
+fn holds_on_hill(cycle: &Cycle<'_>) -> bool {
+    let (timer, config) = (cycle.old.drive.hill, cycle.config);
+    let slow = agreed_speeds(cycle).is_some_and(|(_, high)| high < config.hill_hold_speed.raw());
+    let left = timer == Timer::STOPPED || timer.run(ticks(cycle).safety).elapsed() < config.hill_hold;
+    confirmed(cycle) && slow && left
+}
+
+/// TRQ-6a, TRQ-6b, TRQ-6c: against the brake only the driver's hill-hold; and only in the direction that the gearbox
+/// confirms and no output changes.
+#[must_use]
+pub fn trq_6_hill_hold(cycle: &Cycle<'_>) -> bool {
+    let by_driver = cycle.outputs.drive.origin == Origin::Driver;
+    implies(flows(cycle) && brakes(cycle), by_driver && holds_on_hill(cycle)) && implies(flows(cycle), in_gear(cycle))
+}
+
+/// TRQ-6b: the time of hill-hold begins with torque against the brake, runs until no deceleration is demanded whatever
+/// the torque does meanwhile, and is no shorter than real time.
+#[must_use]
+pub fn trq_6_hill_hold_counts_real_time(cycle: &Cycle<'_>) -> bool {
+    let (old, new, next) = (cycle.old.drive.hill, cycle.new.drive.hill, cycle.next.drive.hill);
+    let counts = brakes(cycle) && (flows(cycle) || old.is_running());
+    let passed = cycle.now.raw().wrapping_sub(cycle.old.clock.last.raw());
+    let known = cycle.old.clock.started && !ticks(cycle).fault && old.is_running() && counts;
+    new == old
+        && next == (if counts { old.run(ticks(cycle).safety) } else { Timer::STOPPED })
+        && implies(known, next.elapsed().raw() >= old.elapsed().raw().saturating_add(passed).min(u32::MAX - 1))
+}
+
+/// TRQ-6c: the confirmed gear is D or R, and no other one goes out.
+fn in_gear(cycle: &Cycle<'_>) -> bool {
+    match cycle.outputs.gear {
+        GearRequest::Hold => cycle.inputs.gear.is(Gear::Drive) || cycle.inputs.gear.is(Gear::Reverse),
+        GearRequest::Drive => cycle.inputs.gear.is(Gear::Drive),
+        GearRequest::Reverse => cycle.inputs.gear.is(Gear::Reverse),
+        GearRequest::Neutral | GearRequest::Park => false,
+    }
+}
+
+/// SEAT-6b: the driver is confirmed, or the bus is known to roll with the parking brake known released.
+fn attended(cycle: &Cycle<'_>) -> bool {
+    let rolls = agreed_speeds(cycle).is_some_and(|(low, _)| low >= cycle.config.epb_speed.raw());
+    confirmed(cycle) || (rolls && cycle.inputs.epb.is(supervisor_core::EpbState::Released))
+}
+
+/// The most of what is asked for that may go out.
+fn most(cycle: &Cycle<'_>, asked: DriveTorque) -> u8 {
+    let (config, driver) = (cycle.config, asked.origin == Origin::Driver);
+    let refused = obliged(cycle)
+        || cycle.new.drive.release_needed
+        || cycle.new.high_voltage.stage != Stage::Up
+        || !attended(cycle)
+        || !in_gear(cycle)
+        || (brakes(cycle) && !(driver && holds_on_hill(cycle)));
+    let limit = cycle.inputs.drive_limit.known().map_or(0, Percent::raw);
+    let held = if cycle.inputs.asr.is(false) { 100 } else { cycle.old.drive.torque.raw().min(100) };
+    let common = if refused || limit > 100 { 0 } else { limit.min(held) };
+    let by_driver = common.min(ramp(cycle)).min(by_pedal(cycle));
+    if driver {
+        return by_driver;
+    }
+    let granted = asked.active
+        && cycle.outputs.mode == DrivingMode::Automated
+        && cycle.new.drive.mode != Mode::Manual
+        && brake_released(cycle)
+        && cycle.threat.known
+        && cycle.threat.level == Level::None
+        && (asked.origin == Origin::Epbi) == (config.longitudinal_mode != Count::ZERO);
+    let suspended = if cycle.new.drive.mode == Mode::Suspended { by_driver } else { 100 };
+    let bounded = if granted { common.min(suspended).min(config.automated_torque.raw()) } else { 0 };
+    match asked.origin {
+        Origin::Driver | Origin::Adas => bounded.min(ramp(cycle)),
+        Origin::Epbi => {
+            let bounded = bounded.min(ramp(cycle).max(config.idle_torque.raw()));
+            // TRQ-5f: below the idle torque there is none.
+            if bounded.min(asked.torque.raw()) < config.idle_torque.raw() { 0 } else { bounded }
+        }
+    }
+}
+
+/// SELF-11a, TRQ-1a to TRQ-1c, TRQ-2a to TRQ-2e, TRQ-3a, TRQ-4f, TRQ-5a to TRQ-5g, TRQ-6a to TRQ-6c, VLC-1a, VLC-1c,
+/// VLC-1d, SEAT-6b: what goes out is what is asked for, up to exactly what the requirements allow: nothing more, and
+/// nothing less, were it 1 %. Who may have none keeps no active flag either, but for coasting in the automated mode.
+#[must_use]
+pub fn self_11_torque_is_exactly_bounded(cycle: &Cycle<'_>) -> bool {
+    let asked = asked(cycle).unwrap_or(DriveTorque::NEUTRAL);
+    let torque = Percent::new(asked.torque.raw().min(most(cycle, asked)));
+    let coasts = asked.torque == Percent::ZERO && cycle.outputs.mode == DrivingMode::Automated;
+    let keeps = asked.origin == Origin::Driver || torque > Percent::ZERO || coasts;
+    cycle.outputs.drive == (if keeps { DriveTorque { torque, ..asked } } else { DriveTorque::NEUTRAL })
+}
+
+/// E2E-2a, E2E-2b: without a usable command there is no torque, and the gear is held, but for an obliged neutral
+/// (SEAT-6a).
+#[must_use]
+pub fn e2e_2_lost_drive_command(cycle: &Cycle<'_>) -> bool {
+    let gear_lost = cycle.commands.gear.usable(cycle.config.timeout_100).is_err();
+    let held = if cycle.envelope.gear.neutral { GearRequest::Neutral } else { GearRequest::Hold };
+    implies(asked(cycle).is_none(), cycle.outputs.drive == DriveTorque::NEUTRAL)
+        && implies(gear_lost, cycle.outputs.gear == held)
 }

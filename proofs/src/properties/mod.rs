@@ -1,17 +1,41 @@
 //! The properties: each safety requirement once, as a plain function over one cycle, named by its id. `true` means that
 //! the requirement holds. Kani calls them on any cycle, proptest, the explorer and cargo-fuzz on those they reach.
 
+pub(crate) mod facts;
+mod known;
+mod reading;
+
+pub mod auxiliaries;
+pub mod body;
 pub mod boot;
 pub mod brake;
+pub mod cap;
+pub mod clock;
+pub mod command;
+pub mod configuration;
 pub mod drive;
+pub mod flow;
+pub mod follow;
+pub mod frame;
+pub mod fusion;
 pub mod gear;
 pub mod high_voltage;
+pub mod leave;
 pub mod mitigation;
+pub mod mode;
+pub mod object;
 pub mod parking;
+pub mod qualifier;
+pub mod recovery;
+pub mod response;
+pub mod retarder;
+pub mod rules;
 pub mod seat;
+pub mod split;
 pub mod steering;
 pub mod supervisor;
 pub mod vetting;
+pub mod warnings;
 
 use supervisor_core::{
     Commands, Config, Decided, Envelope, EpbRequest, Evidence, Faults, Inputs, Millis, Outputs, Percent, Response,
@@ -69,10 +93,20 @@ pub const ALL: &[&[Property]] = &[
     high_voltage::ALL,
     gear::ALL,
     mitigation::ALL,
+    leave::ALL,
     brake::ALL,
+    cap::ALL,
+    split::ALL,
+    retarder::ALL,
+    warnings::ALL,
+    body::ALL,
     drive::ALL,
+    mode::ALL,
     steering::ALL,
     supervisor::ALL,
+    clock::ALL,
+    auxiliaries::ALL,
+    rules::ALL,
 ];
 
 /// `a` ⇒ `b`.

@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::error::{ProveError, file, form, read};
-use super::harness::{Harness, Solver};
+use super::harness::{Checks, Harness, Solver};
 use super::judge::{Verdict, judge};
 use super::raw::Raw;
 
@@ -113,6 +113,12 @@ pub fn verify(root: &Path, target: &Path, harness: &Harness, options: &Options) 
     }
     command.args(["--output-format", "terse", "--export-json"]).arg(&export);
     let started = Instant::now();
+    if harness.checks == Checks::Own {
+        command.arg("--cbmc-args");
+        for name in own(root, target, harness, options)? {
+            command.args(["--property", &name]);
+        }
+    }
     let log = run(&mut command, &target.join(format!("{}.log", harness.name)))?;
     let seconds = started.elapsed().as_secs();
     if !export.exists() {
@@ -126,6 +132,50 @@ pub fn verify(root: &Path, target: &Path, harness: &Harness, options: &Options) 
         return Err(ProveError::NoResult { harness: harness.name.clone(), log: end(&read(&log)?) });
     };
     Ok(Outcome { verdict: judge(&json, &id), checks, covers, seconds, solver, tools: Tools::of(&json), raw })
+}
+
+/// The names of the checks that a harness of [`Checks::Own`] decides: what stands in this package, and the bound of
+/// every loop, without which a proof would be one of the first few rounds only.
+fn own(root: &Path, target: &Path, harness: &Harness, options: &Options) -> Result<Vec<String>, ProveError> {
+    let mut command = command(root, target, options.configuration.as_deref());
+    select(&mut command, harness, options);
+    let log = run(command.arg("--only-codegen"), &target.join(format!("{}-codegen.log", harness.name)))?;
+    let none = |log: String| ProveError::NoResult { harness: harness.name.clone(), log };
+    let Some(program) = program(target, &harness.name) else { return Err(none(end(&read(&log)?))) };
+    let mut command = Command::new(cbmc());
+    command.args(["--object-bits", "16", "--show-properties", "--json-ui"]).arg(&program);
+    let said = command.stdin(Stdio::null()).stderr(Stdio::null()).output().map_err(ProveError::Tool)?;
+    let json: Value = serde_json::from_slice(&said.stdout).map_err(|error| none(format!("cbmc: {error}")))?;
+    let listed = json.as_array().into_iter().flatten().filter_map(|item| item.get("properties")?.as_array());
+    let names = listed.flatten().filter_map(|property| property.get("name")?.as_str());
+    let names: Vec<String> = names.filter(|name| is_own(name)).map(str::to_owned).collect();
+    if names.is_empty() { Err(none("cbmc lists no check of this harness".to_owned())) } else { Ok(names) }
+}
+
+/// Whether a check stands in the package with the harnesses, or bounds a loop.
+fn is_own(name: &str) -> bool {
+    name.starts_with("harness::") || name.starts_with("properties::") || name.contains(".unwind.")
+}
+
+/// The program that Kani linked last for a harness.
+fn program(target: &Path, name: &str) -> Option<PathBuf> {
+    let ends = format!("{}{name}.out", name.len());
+    let files = walkdir::WalkDir::new(target.join("kani")).into_iter().filter_map(Result::ok);
+    let linked = files.filter(|entry| entry.file_name().to_str().is_some_and(|file| file.ends_with(&ends)));
+    linked.max_by_key(|entry| entry.metadata().ok().and_then(|of| of.modified().ok())).map(walkdir::DirEntry::into_path)
+}
+
+/// CBMC: on the path, or where `cargo kani setup` puts it.
+fn cbmc() -> PathBuf {
+    let named = |folder: PathBuf| Some(folder.join("cbmc")).filter(|program| program.is_file());
+    let on_path = std::env::var_os("PATH").and_then(|path| std::env::split_paths(&path).find_map(named));
+    let home = std::env::var_os("KANI_HOME").map(PathBuf::from);
+    let home = home.or_else(|| std::env::var_os("HOME").map(|home| PathBuf::from(home).join(".kani")));
+    let beside = || {
+        let kanis = fs::read_dir(home?).ok()?.filter_map(Result::ok);
+        kanis.filter_map(|entry| named(entry.path().join("bin"))).max()
+    };
+    on_path.or_else(beside).unwrap_or_else(|| PathBuf::from("cbmc"))
 }
 
 /// Compiles every harness; the names of those that Kani knows.
@@ -230,6 +280,14 @@ pub fn counts(export: &Value, harness: &str) -> Option<(usize, usize)> {
 mod tests {
     use super::*;
     use serde_json::json;
+
+    #[test]
+    fn own_are_the_checks_of_the_package_and_the_bounds_of_loops() {
+        assert!(is_own("harness::parking::seat_4_x.assertion.1"));
+        assert!(is_own("properties::parking::seat_4_y.pointer_dereference.3"));
+        assert!(is_own("core::iter::Iterator::all.unwind.0"));
+        assert!(!is_own("supervisor_core::decide::decide.assertion.1"));
+    }
 
     #[test]
     fn covers_are_counted_apart() {

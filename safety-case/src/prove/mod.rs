@@ -23,7 +23,7 @@ mod table;
 
 pub use declared::declared;
 pub use error::ProveError;
-pub use harness::{Harness, LIST, List, Solver};
+pub use harness::{Checks, Harness, LIST, List, Solver};
 pub use judge::{Verdict, judge};
 pub use kani::{CONFIGURATION, Options, Outcome, Tools, available, compile, playback, verify};
 pub use plan::{Quick, named, ordered, quick, seconds, shard};

@@ -147,7 +147,7 @@ mod tests {
         assert_eq!(progress.left().as_secs(), 60);
         progress.begin(1);
         progress.end(2);
-        assert!(progress.left().as_secs() <= 60 && progress.count() == (2, 4));
+        assert!(progress.left().as_secs() <= 60 && progress.count() == (3, 4));
         assert_eq!(words(Duration::from_secs(99)), "99 s");
         assert_eq!(words(Duration::from_secs(170)), "3 min");
         Ok(())

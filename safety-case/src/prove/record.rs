@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 use super::error::{ProveError, file, form, read, write};
-use super::harness::{List, Solver};
+use super::harness::{Checks, List, Solver};
 use super::judge::Verdict;
 use super::kani::Tools;
 use super::raw::{RESULTS, Raw};
@@ -28,6 +28,9 @@ pub struct Proof {
     /// What came out.
     #[serde(flatten)]
     pub verdict: Verdict,
+    /// Which checks it decides.
+    #[serde(default)]
+    pub decides: Checks,
     /// Checks decided.
     pub checks: usize,
     /// Covers.
@@ -183,6 +186,7 @@ pub(super) mod tests {
             extent: "old".to_owned(),
             verdict: Verdict::Proved,
             checks: 5,
+            decides: Checks::All,
             covers: 2,
             solver: Solver::Kissat,
             seconds,

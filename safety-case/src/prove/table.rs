@@ -1,6 +1,6 @@
 //! The table of `proofs/README.md`, made from the record.
 
-use super::harness::{Harness, List};
+use super::harness::{Checks, Harness, List};
 use super::judge::Verdict;
 use super::record::Record;
 
@@ -44,9 +44,16 @@ pub fn table(list: &List, record: &Record) -> String {
     ];
     for harness in &list.harness {
         let (solver, seconds, counts) = match record.of(&harness.name) {
-            Some(proof) => {
-                (proof.solver.to_string(), proof.seconds.to_string(), format!("{} / {}", proof.checks, proof.covers))
-            }
+            Some(proof) => (
+                proof.solver.to_string(),
+                proof.seconds.to_string(),
+                format!(
+                    "{}{} / {}",
+                    proof.checks,
+                    if proof.decides == Checks::Own { " own" } else { "" },
+                    proof.covers
+                ),
+            ),
             None => ("–".to_owned(), "–".to_owned(), "–".to_owned()),
         };
         let claim = claim(harness, record).replace('|', "\\|");

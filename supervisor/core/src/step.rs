@@ -13,6 +13,8 @@ use supervisor_terms::{
 
 /// The state after the cycle, for people and records. Nothing in it can be written back.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(kani, derive(kani::Arbitrary))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
 pub struct Status {
     /// The seat.
     pub occupancy: Occupancy,

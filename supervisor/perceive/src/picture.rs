@@ -31,6 +31,7 @@ const STEP_BITS: u32 = 3;
 
 /// Both edges of a box in one direction of the image, in 1/8 px.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(kani, derive(kani::Arbitrary))]
 pub struct Span {
     /// The lesser: left, or upper.
     pub least: u16,

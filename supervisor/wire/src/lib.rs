@@ -53,6 +53,8 @@ extern crate kani;
 
 mod coding;
 mod frame;
+#[cfg(any(kani, feature = "inspect"))]
+pub mod inspect;
 mod link;
 mod list;
 mod message;

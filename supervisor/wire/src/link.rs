@@ -14,7 +14,8 @@ const GREATEST_STEP: u8 = 3;
 
 /// What the receiver keeps of one message.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Link {
+#[cfg_attr(kani, derive(kani::Arbitrary))]
+pub struct Link {
     message: Message,
     timing: Timing,
     /// Counter of the last intact frame, forgotten after a gap.
@@ -31,7 +32,9 @@ pub(crate) struct Link {
 }
 
 impl Link {
-    pub(crate) const fn new(message: Message, timing: Timing) -> Self {
+    /// Nothing received yet.
+    #[must_use]
+    pub const fn new(message: Message, timing: Timing) -> Self {
         Self {
             message,
             timing,
@@ -44,10 +47,27 @@ impl Link {
         }
     }
 
+    /// The same state, of this message.
+    #[cfg(kani)]
+    #[must_use]
+    pub const fn of(self, message: Message) -> Self {
+        Self { message, ..self }
+    }
+
+    /// The same state, with these times.
+    #[cfg(kani)]
+    #[must_use]
+    pub const fn timed(self, timing: Timing) -> Self {
+        Self { timing, ..self }
+    }
+
     /// Checks a frame and takes its signals over into `values`; how many frames before it are lost.
     ///
     /// RULE-5a: if anything is wrong with it, the message counts as failed from now on.
-    pub(crate) fn receive(&mut self, now: Millis, frame: &Frame, values: &mut Values) -> Result<u8, Fault> {
+    ///
+    /// # Errors
+    /// What is wrong with it.
+    pub fn receive(&mut self, now: Millis, frame: &Frame, values: &mut Values) -> Result<u8, Fault> {
         let checked = self.check(now, frame, values);
         if checked.is_ok() {
             self.qualifier.good(now, self.patience());
@@ -87,9 +107,15 @@ impl Link {
         }
     }
 
+    /// The counter that the next frame must go on from; `None` after a gap.
+    #[must_use]
+    pub fn predecessor(&self, now: Millis) -> Option<u8> {
+        self.counter.filter(|_| elapsed(now, self.heard) <= self.timing.timeout)
+    }
+
     /// Forgets the counter after a gap; called in every cycle, so the clock cannot wrap unseen.
     fn forget(&mut self, now: Millis) {
-        self.counter = self.counter.filter(|_| elapsed(now, self.heard) <= self.timing.timeout);
+        self.counter = self.predecessor(now);
     }
 
     /// E2E-1h: after a frame that asked for nothing, an on-demand message does not time out.
@@ -103,13 +129,16 @@ impl Link {
     }
 
     /// Age, or cause of "unknown".
-    pub(crate) fn quality(&mut self, now: Millis) -> Result<Millis, Cause> {
+    ///
+    /// # Errors
+    /// The cause.
+    pub fn quality(&mut self, now: Millis) -> Result<Millis, Cause> {
         self.forget(now);
         self.qualifier.quality(now, self.patience())
     }
 
     /// CMD-2a to CMD-2d: the message as a command with this value.
-    pub(crate) fn command<T>(&mut self, now: Millis, value: T) -> Command<T> {
+    pub fn command<T>(&mut self, now: Millis, value: T) -> Command<T> {
         match (self.quality(now), self.rejection) {
             (Ok(_), _) if self.fresh => Command::Fresh(value),
             (Ok(age), _) => Command::Held(age.min(self.timing.timeout), value),

@@ -6,7 +6,7 @@ use supervisor_perceive::{CameraObject, PixelBox, RadarObject};
 use crate::qualifier::elapsed;
 
 /// An object that comes in parts.
-pub(crate) trait Object: Copy + PartialEq {
+pub trait Object: Copy + PartialEq {
     /// No object.
     const NONE: Self;
     /// How many parts.
@@ -40,8 +40,9 @@ impl Object for CameraObject {
 }
 
 /// What one frame of a list carries.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Entry<T> {
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(kani, derive(kani::Arbitrary))]
+pub struct Entry<T> {
     /// Counts the lists.
     pub cycle: Count,
     /// Which object.
@@ -53,11 +54,12 @@ pub(crate) struct Entry<T> {
 }
 
 impl<T: Object> Entry<T> {
-    pub(crate) const NONE: Self =
-        Self { cycle: Count::ZERO, index: Count::ZERO, length: Signal::NEVER, object: T::NONE };
+    /// Nothing.
+    pub const NONE: Self = Self { cycle: Count::ZERO, index: Count::ZERO, length: Signal::NEVER, object: T::NONE };
 
     /// Whether the list is not longer than `longest`, the index lies in it, and an empty list has no object.
-    pub(crate) fn fits(&self, longest: usize) -> bool {
+    #[must_use]
+    pub fn fits(&self, longest: usize) -> bool {
         let length = self.length.known().unwrap_or(Count::ZERO);
         let empty = length == Count::ZERO && self.index == Count::ZERO && self.object == T::NONE;
         usize::from(length.raw()) <= longest && (self.index < length || empty)
@@ -66,7 +68,8 @@ impl<T: Object> Entry<T> {
 
 /// A list in the making, and since when the last whole one is in use.
 #[derive(Clone, Debug)]
-pub(crate) struct List<T, const N: usize> {
+#[cfg_attr(kani, derive(kani::Arbitrary))]
+pub struct List<T, const N: usize> {
     /// A list older than this is not used.
     timeout: Millis,
     cycle: Count,
@@ -82,7 +85,9 @@ pub(crate) struct List<T, const N: usize> {
 }
 
 impl<T: Object, const N: usize> List<T, N> {
-    pub(crate) const fn new(timeout: Millis) -> Self {
+    /// No list yet.
+    #[must_use]
+    pub const fn new(timeout: Millis) -> Self {
         let Entry { cycle, length, object, .. } = Entry::NONE;
         let objects = [(object, 0); N];
         Self { timeout, cycle, length, began: None, objects, current: None, aged: Millis::ZERO }
@@ -92,7 +97,7 @@ impl<T: Object, const N: usize> List<T, N> {
     ///
     /// A frame of another cycle or length begins a new list, and so does one so late that the cycle may have come
     /// round: what was there is forgotten.
-    pub(crate) fn add(&mut self, now: Millis, part: u8, entry: &Entry<T>) -> Option<impl Iterator<Item = T>> {
+    pub fn add(&mut self, now: Millis, part: u8, entry: &Entry<T>) -> Option<impl Iterator<Item = T>> {
         let same = self.cycle == entry.cycle && self.length == entry.length;
         let began = self.began.filter(|began| same && elapsed(now, *began) <= self.timeout);
         if began.is_none() {
@@ -114,7 +119,7 @@ impl<T: Object, const N: usize> List<T, N> {
         Some(objects.iter().map(|(object, _)| *object))
     }
     /// Lets the objects in use grow older; whether the list is whole and not older than the time-out.
-    pub(crate) fn known<'a>(&mut self, now: Millis, ages: impl Iterator<Item = &'a mut Millis>) -> bool {
+    pub fn known<'a>(&mut self, now: Millis, ages: impl Iterator<Item = &'a mut Millis>) -> bool {
         let older = elapsed(now, self.aged);
         ages.for_each(|age| *age = Millis::new(age.raw().saturating_add(older.raw())));
         self.aged = now;

@@ -68,18 +68,25 @@ pub struct SignalLayout {
 
 /// Everything that frames carry.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Values {
+#[cfg_attr(kani, derive(kani::Arbitrary))]
+pub struct Values {
+    /// Inputs.
     pub inputs: Inputs,
+    /// Commands, or outputs.
     pub outputs: Outputs,
+    /// A part of a radar object.
     pub radar: Entry<RadarObject>,
+    /// A part of a camera object.
     pub camera: Entry<CameraObject>,
+    /// What the supervisor says of itself.
     pub status: Status,
     /// When the status was sent, by the clock of the supervisor.
     pub stamp: Millis,
 }
 
 impl Values {
-    pub(crate) const NONE: Self = Self {
+    /// Nothing.
+    pub const NONE: Self = Self {
         inputs: Inputs::NEVER,
         outputs: Outputs::NEUTRAL,
         radar: Entry::NONE,
@@ -119,6 +126,7 @@ macro_rules! messages {
     ) { $($signal:ident: $coding:ident($start:literal, $width:literal) = $place:expr;)* })*) => {
         /// The messages: a closed table.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        #[cfg_attr(kani, derive(kani::Arbitrary))]
         pub enum Message { $($(#[$doc])* $message,)* }
 
         messages! { @get /** Its place in the table. */ number: usize; $($message => $number,)* }

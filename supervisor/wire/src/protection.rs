@@ -63,7 +63,8 @@ impl Protection {
     }
 
     /// The payload with this counter and the check field it needs.
-    pub(crate) fn seal(self, id: u32, payload: u64, counter: u8) -> u64 {
+    #[must_use]
+    pub fn seal(self, id: u32, payload: u64, counter: u8) -> u64 {
         self.places().map_or(payload, |((start, width), (check_start, check_width))| {
             let payload = insert(payload, start, width, u64::from(counter));
             insert(payload, check_start, check_width, self.check(id, payload))
@@ -73,7 +74,10 @@ impl Protection {
     /// The counter of an intact frame; `None` if the message is bare.
     ///
     /// E2E-1b, CMD-7c: a wrong check field is refused, and so is a counter that is reserved or "not available".
-    pub(crate) fn open(self, id: u32, payload: u64) -> Result<Option<u8>, Fault> {
+    ///
+    /// # Errors
+    /// What is wrong with it.
+    pub fn open(self, id: u32, payload: u64) -> Result<Option<u8>, Fault> {
         let Some(((start, width), (check_start, check_width))) = self.places() else { return Ok(None) };
         let counter = u8::try_from(extract(payload, start, width)).ok().filter(|counter| *counter < self.counts());
         let counter = counter.ok_or(Fault::NoCounter)?;

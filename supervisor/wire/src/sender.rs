@@ -18,6 +18,7 @@ const ECHO: Millis = Millis::new(20);
 
 /// A frame that was sent.
 #[derive(Clone, Copy, Debug)]
+#[cfg_attr(kani, derive(kani::Arbitrary))]
 struct Sent {
     /// Without counter and check field.
     payload: u64,
@@ -29,6 +30,7 @@ struct Sent {
 
 /// What the sender keeps of one message.
 #[derive(Clone, Copy, Debug)]
+#[cfg_attr(kani, derive(kani::Arbitrary))]
 struct Slot {
     /// When it was due last.
     due: Millis,
@@ -38,6 +40,7 @@ struct Slot {
 
 /// Sends frames: keeps counters and periods.
 #[derive(Clone, Debug)]
+#[cfg_attr(kani, derive(kani::Arbitrary))]
 pub struct Sender {
     slots: [Slot; Message::COUNT],
     /// Cycles of the next object lists, of radar and camera.
@@ -61,6 +64,14 @@ impl Sender {
             #[cfg(feature = "simulate")]
             cycles: [Count::ZERO; 2],
         }
+    }
+
+    /// The counter of the last frame of this message.
+    #[cfg(any(kani, feature = "inspect"))]
+    #[must_use]
+    pub fn counter(&self, message: Message) -> Option<u8> {
+        let [last, _] = self.slots.get(message.number())?.sent;
+        Some(last?.counter)
     }
 
     /// Sends the outputs that are due or have changed, as the supervisor (CMD-3d, SELF-8a).

@@ -136,6 +136,7 @@ impl Gate {
             extent: harness.extent.clone(),
             verdict: ran.verdict,
             checks: ran.checks,
+            decides: harness.checks,
             covers: ran.covers,
             solver: ran.solver,
             seconds: ran.seconds,

@@ -1,0 +1,41 @@
+//! The table of leave (SEAT-3): any table, any speed.
+
+use supervisor_core::{
+    Config, DecelMs2Q11, EpbState, Inputs, Millis, Response, SeatState, Signal, SpeedKmhQ8, State, Threat, decide,
+};
+
+use crate::properties::leave::is_table;
+
+/// What the shipped `decide` demands in leave at this speed, the parking brake applied: the table alone.
+fn demand(speed: u16, config: &Config) -> DecelMs2Q11 {
+    let speed = Signal::Known(SpeedKmhQ8::new(speed));
+    let inputs =
+        Inputs { wheel_speed: speed, motor_speed: speed, epb: Signal::Known(EpbState::Applied), ..Inputs::NEVER };
+    let state = State { seat: SeatState { leave: true, ..SeatState::INITIAL }, ..State::INITIAL };
+    decide(&state, Millis::ZERO, &inputs, &Threat::CLEAR, &Response::FOLLOWS, config).state.brake.leave
+}
+
+/// SEAT-3a, SEAT-3b, SEAT-3c: exactly the line between the points, rounded up, for every speed and every table.
+#[kani::proof]
+#[kani::unwind(17)]
+fn seat_3_table_exactly() {
+    let config = Config { leave_decel: kani::any(), ..Config::DEFAULT };
+    let speed: u16 = kani::any();
+    let demand = demand(speed, &config);
+    assert!(is_table(demand, speed, &config));
+    kani::cover!(speed > 2560 && speed < 3840 && demand.raw() > 0, "between two points");
+    kani::cover!(speed > 15_360, "beyond the table");
+}
+
+/// SEAT-3b: a table that rises gives a demand that does not fall, from each 1/256 km/h to the next, and so over all speeds.
+#[kani::proof]
+#[kani::unwind(17)]
+fn seat_3_demand_does_not_fall() {
+    let config = Config { leave_decel: kani::any(), ..Config::DEFAULT };
+    let slower: u16 = kani::any();
+    let faster = slower.saturating_add(1);
+    let rises = config.leave_decel.0.is_sorted();
+    let (low, high) = (demand(slower, &config), demand(faster, &config));
+    assert!(!rises || low <= high);
+    kani::cover!(rises && low < high, "it rises");
+}

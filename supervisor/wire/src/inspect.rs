@@ -1,0 +1,28 @@
+//! Single parts of the link, to be proved one by one (feature `inspect`): no vehicle needs them.
+
+pub use crate::link::Link;
+pub use crate::list::{Entry, List};
+use crate::message::Source;
+pub use crate::message::Values;
+use crate::refusal::Fault;
+use crate::table::Message;
+
+/// Reads the signals of a message.
+///
+/// # Errors
+/// The first thing that means nothing.
+pub fn read(message: Message, payload: u64, values: &mut Values) -> Result<(), Fault> {
+    message.read(payload, values)
+}
+
+/// Writes the signals of a message, without counter and check field.
+#[must_use]
+pub fn write(message: Message, values: &Values) -> u64 {
+    message.write(values)
+}
+
+/// The message with this identifier, and from whom it comes.
+#[must_use]
+pub fn identify(id: u32) -> Option<(Message, Source)> {
+    Message::identify(id)
+}
