@@ -31,9 +31,21 @@ pub struct Listed {
     pub file: String,
     replacement: String,
     span: Span,
+    function: Option<Function>,
+}
+
+#[derive(Clone, Debug, Deserialize)]
+struct Function {
+    function_name: String,
 }
 
 impl Listed {
+    /// The function that it stands in; empty outside of any.
+    #[must_use]
+    pub fn function(&self) -> &str {
+        self.function.as_ref().map_or("", |function| &function.function_name)
+    }
+
     /// The file with the mistake in it.
     ///
     /// # Errors
@@ -97,7 +109,7 @@ mod tests {
     fn listed(name: usize) -> Listed {
         let place = Place { line: 1, column: 1 };
         let span = Span { start: place, end: place };
-        Listed { name: name.to_string(), file: String::new(), replacement: String::new(), span }
+        Listed { name: name.to_string(), file: String::new(), replacement: String::new(), span, function: None }
     }
 
     fn names(seed: u64) -> Vec<String> {

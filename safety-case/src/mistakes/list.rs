@@ -53,6 +53,8 @@ pub struct Drawn {
 pub struct Module {
     /// The source file.
     pub file: String,
+    /// The function; without it, any other in that file.
+    pub function: Option<String>,
     /// In this order.
     pub harness: Vec<String>,
 }
@@ -105,10 +107,12 @@ impl List {
         toml::from_str(&text).map_err(|error| ProveError::Form { path: root.join(LIST), message: error.to_string() })
     }
 
-    /// The harnesses to try on a drawn mistake in this file.
+    /// The harnesses to try on a drawn mistake in this function of this file.
     #[must_use]
-    pub fn harnesses(&self, file: &str) -> &[String] {
-        self.module.iter().find(|module| module.file == file).map_or(&[], |module| &module.harness)
+    pub fn harnesses(&self, file: &str, function: &str) -> &[String] {
+        let fits =
+            |module: &&Module| module.file == file && module.function.as_deref().is_none_or(|name| name == function);
+        self.module.iter().find(fits).map_or(&[], |module| &module.harness)
     }
 
     /// What is wrong with the list itself: a name twice, no or an unknown harness, a mistake that does not fit its file.

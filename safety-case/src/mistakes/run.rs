@@ -238,7 +238,7 @@ fn drawn(
         if tasks.len() > wanted.saturating_mul(3) {
             break;
         }
-        let harnesses = chosen_of(harnesses, list.harnesses(&listed.file));
+        let harnesses = chosen_of(harnesses, list.harnesses(&listed.file, listed.function()));
         if !harnesses.is_empty() {
             let (change, within) = (listed.change(root)?, Duration::from_secs(list.drawn.within));
             tasks.push(Task { name: listed.name, change, harnesses, within });

@@ -34,8 +34,6 @@ pub struct Options {
     pub timeout: Option<Duration>,
     /// A sealed configuration, an absolute path; without it, the default one.
     pub configuration: Option<PathBuf>,
-    /// Check nothing but assertions: cheaper, for one who looks for a failure. It proves less.
-    pub assertions_only: bool,
 }
 
 /// What a run of one harness came to.
@@ -108,9 +106,6 @@ pub fn verify(root: &Path, target: &Path, harness: &Harness, options: &Options) 
     }
     let mut command = command(root, target, options.configuration.as_deref());
     select(&mut command, harness, options);
-    if options.assertions_only {
-        command.arg("--no-default-checks");
-    }
     command.args(["--output-format", "terse", "--export-json"]).arg(&export);
     let started = Instant::now();
     if harness.checks == Checks::Own {

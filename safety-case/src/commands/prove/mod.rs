@@ -73,7 +73,6 @@ impl Gate {
                 solver: arguments.solver,
                 timeout: arguments.timeout.map(Duration::from_secs),
                 configuration: None,
-                assertions_only: false,
             },
             jobs: arguments
                 .jobs
