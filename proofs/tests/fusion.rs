@@ -9,8 +9,9 @@ use supervisor_perceive::{
 };
 use supervisor_proofs::properties::fusion::{
     fus_2a_camera_box_is_clipped, fus_2a_projection_is_exact, fus_3a_a_match_needs_overlap, fus_3a_no_match_is_missed,
-    fus_3a_one_to_one, fus_3a_order_is_exact, fus_3a_order_is_strict, fus_3a_overlap_is_exact,
-    fus_3a_overlap_is_symmetric, fus_3a_threshold_by_the_sum, fus_3a_threshold_is_exact, fus_3a_two_match_exactly,
+    fus_3a_one_to_one, fus_3a_order_is_exact, fus_3a_order_is_strict, fus_3a_overlap_exactly_in_common,
+    fus_3a_overlap_is_exact, fus_3a_overlap_is_symmetric, fus_3a_threshold_by_the_sum, fus_3a_threshold_is_exact,
+    fus_3a_two_match_exactly,
 };
 
 const CASES: u32 = 20_000;
@@ -119,6 +120,7 @@ proptest! {
     #[test]
     fn overlap_is_exact(first in outline(), second in outline()) {
         assert!(fus_3a_overlap_is_exact(first, second));
+        assert!(fus_3a_overlap_exactly_in_common(first, second));
         assert!(fus_3a_overlap_is_symmetric(first, second));
     }
 

@@ -68,7 +68,9 @@ fn inputs(source: &mut Source<'_>) -> Result<Inputs> {
         ..Inputs::NEVER
     };
     macro_rules! vary {
-        ($($field:ident)+) => { $(if source.int_in_range(0_u8..=31)? == 0 { inputs.$field = Arbitrary::arbitrary(source)?; })+ };
+        ($($field:ident)+) => {
+            $(if source.int_in_range(0_u8..=31)? == 0 { inputs.$field = Arbitrary::arbitrary(source)?; })+
+        };
     }
     vary!(seat wheel_speed motor_speed accelerator brake_pedal brake_switch steering_angle driver_torque gear epb);
     vary!(cruise_switch driver_set drive_limit abs asr ads eps deceleration executed_torque selector);
@@ -168,14 +170,14 @@ fn something_passes_near_the_healthy_cycle() {
             .collect();
         let Ok(witness) = witness(&bytes, &Config::DEFAULT) else { continue };
         let out = &witness.outputs;
-        let seen = [
+        let passes = [
             out.drive.torque > Percent::ZERO,
             out.mode == DrivingMode::Automated,
             out.steering.enable,
             out.target_speed > SpeedKmhQ8::ZERO,
         ];
-        for (count, seen) in passed.iter_mut().zip(seen) {
-            *count += u32::from(seen);
+        for (count, passes) in passed.iter_mut().zip(passes) {
+            *count += u32::from(passes);
         }
     }
     assert!(passed.iter().all(|count| *count > 50), "passed: {passed:?}");

@@ -15,10 +15,14 @@ pub(super) fn configured() -> Config {
     config.unwrap_or(Config::DEFAULT)
 }
 
-/// Any value of every limit that the assessment of an object compares with; times to collision, which it multiplies by, and what it
-/// does not read are as configured.
+/// Any value of every limit that the assessment of an object reads; what it does not read is as configured.
 pub(super) fn any_limits() -> Config {
     Config {
+        level_ttc: kani::any(),
+        forward_ttc: kani::any(),
+        pedestrian_ttc: kani::any(),
+        emergency_ttc: kani::any(),
+        mitigable_ttc: kani::any(),
         level_decel: kani::any(),
         forward_offset: kani::any(),
         pedestrian_offset: kani::any(),

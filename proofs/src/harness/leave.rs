@@ -1,10 +1,10 @@
 //! The table of leave (SEAT-3): any table, any speed.
 
 use supervisor_core::{
-    Config, DecelMs2Q11, EpbState, Inputs, Millis, Response, SeatState, Signal, SpeedKmhQ8, State, Threat, decide,
+    Config, DecelMs2Q11, EpbState, Inputs, Millis, Response, Seat, SeatState, Signal, SpeedKmhQ8, State, Threat, decide,
 };
 
-use crate::properties::leave::is_table;
+use crate::properties::leave::{at_least_table, is_table};
 
 /// What the shipped `decide` demands in leave at this speed, the parking brake applied: the table alone.
 fn demand(speed: u16, config: &Config) -> DecelMs2Q11 {
@@ -38,4 +38,20 @@ fn seat_3_demand_does_not_fall() {
     let (low, high) = (demand(slower, &config), demand(faster, &config));
     assert!(!rises || low <= high);
     kani::cover!(rises && low < high, "it rises");
+}
+
+/// SELF-5d, SEAT-3a: in the safe state with a vacant seat the bus brakes at least as the table says.
+#[kani::proof]
+#[kani::unwind(17)]
+fn self_5d_vacant_seat_in_the_safe_state() {
+    let config = Config { leave_decel: kani::any(), ..Config::DEFAULT };
+    let speed: u16 = kani::any();
+    let known = Signal::Known(SpeedKmhQ8::new(speed));
+    let inputs =
+        Inputs { wheel_speed: known, motor_speed: known, seat: [Signal::Known(Seat::Vacant); 2], ..Inputs::NEVER };
+    let state = State::corrupted();
+    let decided = decide(&state, Millis::ZERO, &inputs, &Threat::CLEAR, &Response::FOLLOWS, &config);
+    assert!(at_least_table(decided.envelope.brake.floor.most, speed, &config));
+    assert!(decided.state.is_safe_state() && !decided.state.seat.leave);
+    kani::cover!(decided.envelope.brake.floor.most.raw() > 4506, "it brakes by the table");
 }

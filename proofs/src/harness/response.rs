@@ -93,6 +93,7 @@ fn rsp_1_wheel_follows() {
 #[kani::unwind(17)]
 #[kani::stub(supervisor_core::kernel::share_down, uninterpreted::share_down)]
 #[kani::stub(supervisor_core::kernel::within_percent, uninterpreted::within_percent)]
+#[kani::stub(supervisor_core::Follow::advance, uninterpreted::follow)]
 fn rsp_1_deviations_are_found_exactly() {
     let any = AnyWatch::new();
     let watch = any.watch();

@@ -2,12 +2,13 @@
 
 use supervisor_core::{DecelMs2Q11, Faults, Millis, Outputs, Percent, vet_retarder};
 
-use super::Any;
+use super::{Any, uninterpreted};
 use crate::properties::body::{
     body_1c_delay_counts_real_time, body_1c_lamps_go_off_after_the_delay, e2e_1g_timeouts_as_configured,
 };
 use crate::properties::brake::{
-    cmd_3f_brake_counts_from_last_output, e2e_2_lost_request_holds_then_falls, e2e_2_lost_request_is_told,
+    cmd_3f_brake_counts_from_last_output, e2e_2_lost_request_is_told, e2e_2c_lost_request_holds,
+    e2e_2d_then_falls_by_the_ramp,
 };
 use crate::properties::retarder::ret_1b_none_beside_abs;
 use crate::properties::split::{vlc_2_electric_limit_exactly, vlc_3_implausible_is_told};
@@ -37,16 +38,17 @@ fn vlc_2_bounds_of_the_road() {
     kani::cover!(outputs.retarder.torque > Percent::ZERO, "a retarder torque passes");
 }
 
-/// E2E-2, CMD-3f, BODY-1c: what a lost request counts as, and what the next cycle begins with.
+/// E2E-2, CMD-3f, BODY-1c: for how long a lost request holds, how it falls then, and what the next cycle begins with.
 #[kani::proof]
 #[kani::unwind(17)]
-#[kani::solver(kissat)]
+#[kani::stub(supervisor_core::kernel::fallen, uninterpreted::fallen)]
 fn e2e_2_lost_request_and_record() {
     let mut any = Any::new();
     let outputs = kani::any();
     any.record(&outputs);
     let cycle = any.cycle(&outputs);
-    assert!(e2e_2_lost_request_holds_then_falls(&cycle));
+    assert!(e2e_2c_lost_request_holds(&cycle));
+    assert!(e2e_2d_then_falls_by_the_ramp(&cycle));
     assert!(cmd_3f_brake_counts_from_last_output(&cycle));
     assert!(body_1c_delay_counts_real_time(&cycle));
     let fallback = any.decided.envelope.brake.fallback;

@@ -11,7 +11,7 @@ use supervisor_core::{
 use super::Any;
 use crate::properties::vetting::{
     self_2_brake_sound, self_2_contactors_sound, self_2_drive_sound, self_2_epb_sound, self_2_gear_sound,
-    self_2_retarder_sound, self_2_steering_sound, self_2_warnings_sound, went_unchanged,
+    self_2_steering_sound, self_2_warnings_sound, went_unchanged,
 };
 
 /// Any feasible envelope.
@@ -56,16 +56,6 @@ fn self_2_retarder() {
     let vetted = vet_retarder(&envelope, most, command);
     assert!(vetted.0.torque <= most.most);
     holds(command, envelope.timeouts.ms100, vetted, vet_retarder(&envelope, most, Command::Fresh(vetted.0)));
-}
-
-/// PHB-1, RET-1: service brake and retarder together stay below the cap, whatever the retarder gives for each per cent.
-#[kani::proof]
-#[kani::solver(kissat)]
-fn phb_1_total_below_cap() {
-    let (envelope, command, given): (_, _, Outputs) = (any_envelope(), kani::any(), kani::any());
-    let (retarder, _) = vet_retarder(&envelope, envelope.brake.retarder_beside(given.brake.total), command);
-    assert!(self_2_retarder_sound(&envelope, &Outputs { retarder, ..given }));
-    kani::cover!(retarder.torque.raw() > 0, "a retarder torque passes");
 }
 
 /// SELF-2, TRQ-6: drive torque.

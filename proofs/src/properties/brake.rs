@@ -1,7 +1,8 @@
 //! How much must the bus brake, and what becomes of a brake request? (MIT, SEAT-3, E2E-2, VLC-1, CMD-6, RSP-1)
 
 use supervisor_core::{
-    BrakeMode, DecelMs2Q11, Deviation, EpbMode, EpbRequest, Faults, Mode, Priority, Seat, ServiceBrake, kernel,
+    BrakeMode, DecelMs2Q11, Deviation, EpbMode, EpbRequest, Faults, Mode, Percent, Priority, Seat, ServiceBrake, Timer,
+    kernel,
 };
 
 use super::known::{asked, counts, lasted};
@@ -12,11 +13,13 @@ use super::{Cycle, Property, all, implies};
 pub const ALL: &[Property] = all![
     brake_never_below_obligation,
     mit_4b_greatest_demand_exactly,
+    self_5d_vacant_brakes_by_the_table,
     rule_1d_slow_is_kept,
     vlc_1e_requests_merge,
     self_11b_request_in_bounds_passes,
     cmd_6a_obligation_has_its_own_mode,
-    e2e_2_lost_request_holds_then_falls,
+    e2e_2c_lost_request_holds,
+    e2e_2d_then_falls_by_the_ramp,
     e2e_2_lost_request_is_told,
     cmd_3f_brake_counts_from_last_output,
     rsp_1_retarder_helps
@@ -55,13 +58,21 @@ pub fn mit_4b_greatest_demand_exactly(cycle: &Cycle<'_>) -> bool {
         .max(of(mitigation.three, three))
         .max(of(held, config.leave_hold))
         .max(of(new.seat.leave, new.brake.leave));
-    let floor = cycle.envelope.brake.floor.most;
     let vacant = cycle.inputs.seat.iter().all(|sensor| sensor.is(Seat::Vacant));
-    match (new.is_safe_state() && vacant, cycle.agreed_speeds()) {
-        (false, _) => floor == greatest,
-        (true, None) => floor == greatest.max(config.leave_hold),
-        (true, Some((low, _))) => floor >= greatest && at_least_table(floor, low, config),
-    }
+    let floor = cycle.envelope.brake.floor.most;
+    // What the table adds in the safe state is the next property's.
+    if new.is_safe_state() && vacant { floor >= greatest } else { floor == greatest }
+}
+
+/// SELF-5d, SEAT-3a: in the safe state with the seat known vacant at least a₀, without a speed at least the hold.
+#[must_use]
+pub fn self_5d_vacant_brakes_by_the_table(cycle: &Cycle<'_>) -> bool {
+    let (config, floor) = (cycle.config, cycle.envelope.brake.floor.most);
+    let vacant = cycle.inputs.seat.iter().all(|sensor| sensor.is(Seat::Vacant));
+    implies(
+        cycle.new.is_safe_state() && vacant,
+        cycle.agreed_speeds().map_or(floor >= config.leave_hold, |(low, _)| at_least_table(floor, low, config)),
+    )
 }
 
 /// RULE-1d, SELF-5d: slow by the lower speed; an unknown speed keeps what was last known.
@@ -122,20 +133,30 @@ pub fn cmd_6a_obligation_has_its_own_mode(cycle: &Cycle<'_>) -> bool {
     implies(cycle.envelope.epb.obliged.is_some(), epb.request == EpbRequest::Apply && epb.mode == EpbMode::Automatic)
 }
 
-/// E2E-2c, E2E-2d: what a lost request counts as: the last output while it has been lost for less than the hold, then the
-/// last output less the ramp, in every cycle, down to nothing. The first cycle without a request counts as lost for no time.
+/// Whether a request will have been lost for the hold in this cycle; the first cycle without one counts for no time.
+fn held_long_enough(since: Timer, of: &Cycle<'_>) -> bool {
+    let (_, elapsed) = of.elapsed();
+    since.is_running() && since.elapsed().raw().saturating_add(elapsed) >= of.config.brake_hold.raw()
+}
+
+/// E2E-2c: a lost request counts as the last output exactly while it has been lost for less than the hold; then as no more
+/// than that, and a retarder torque as nothing.
 #[must_use]
-pub fn e2e_2_lost_request_holds_then_falls(cycle: &Cycle<'_>) -> bool {
+pub fn e2e_2c_lost_request_holds(cycle: &Cycle<'_>) -> bool {
+    let (brake, bound) = (&cycle.old.brake, &cycle.envelope.brake);
+    let (over, retarder_over) = (held_long_enough(brake.lost, cycle), held_long_enough(brake.retarder_lost, cycle));
+    (bound.fallback == brake.total || over && bound.fallback < brake.total)
+        && bound.retarder_fallback == if retarder_over { Percent::ZERO } else { brake.retarder }
+}
+
+/// E2E-2d: after the hold it falls in every cycle by the configured ramp, down to nothing.
+#[must_use]
+pub fn e2e_2d_then_falls_by_the_ramp(cycle: &Cycle<'_>) -> bool {
     let (brake, config) = (&cycle.old.brake, cycle.config);
-    let (_, elapsed) = cycle.elapsed();
-    let over = |since: supervisor_core::Timer| {
-        since.is_running() && since.elapsed().raw().saturating_add(elapsed) >= config.brake_hold.raw()
-    };
-    let step = kernel::fallen(config.brake_ramp.raw(), elapsed);
-    let service = if over(brake.lost) { brake.total.raw().saturating_sub(step) } else { brake.total.raw() };
-    let bound = &cycle.envelope.brake;
-    bound.fallback.raw() == service
-        && bound.retarder_fallback.raw() == if over(brake.retarder_lost) { 0 } else { brake.retarder.raw() }
+    // The clock's own ticks, as `cmd_3f_brake_counts_from_last_output` pins them: two products of the same numbers match.
+    let (_, ticks) = cycle.old.clock.advance(cycle.now, config);
+    let left = brake.total.raw().saturating_sub(kernel::fallen(config.brake_ramp.raw(), ticks.safety.raw()));
+    implies(held_long_enough(brake.lost, cycle), cycle.envelope.brake.fallback.raw() == left)
 }
 
 /// E2E-2e, E2E-2f: while the request is lost the driver is told; once it was lost for the hold no automated mode runs.

@@ -104,6 +104,15 @@ pub fn fus_3a_overlap_is_exact(first: Outline, second: Outline) -> bool {
     overlap == (shared > 0).then_some(expected)
 }
 
+/// FUS-3a: two boxes overlap exactly when they have a column and a row in common, more than an edge; in whatever order.
+#[must_use]
+pub fn fus_3a_overlap_exactly_in_common(first: Outline, second: Outline) -> bool {
+    let common = |one: Span, other: Span| one.least.max(other.least) < one.most.min(other.most);
+    let both = common(first[0], second[0]) && common(first[1], second[1]);
+    let (first, second) = (Boxed::of(first), Boxed::of(second));
+    first.overlap(&second).is_some() == both && second.overlap(&first).is_some() == both
+}
+
 /// FUS-3a: the order of two boxes does not matter.
 #[must_use]
 pub fn fus_3a_overlap_is_symmetric(first: Outline, second: Outline) -> bool {

@@ -51,8 +51,9 @@ pub fn is_table(decel: DecelMs2Q11, speed: u16, config: &Config) -> bool {
     place(speed, config).exactly(decel.raw())
 }
 
-/// Whether `decel` is at least a₀ at `speed`.
-pub(crate) fn at_least_table(decel: DecelMs2Q11, speed: u16, config: &Config) -> bool {
+/// SEAT-3a: whether `decel` is at least a₀ at `speed`.
+#[must_use]
+pub fn at_least_table(decel: DecelMs2Q11, speed: u16, config: &Config) -> bool {
     place(speed, config).at_least(decel.raw())
 }
 

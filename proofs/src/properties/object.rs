@@ -5,7 +5,7 @@
 use std::cmp::Ordering;
 
 use supervisor_core::{
-    Alert, Closing, ClosingCmS, Config, DecelMs2Q11, DistanceCm, Level, Millis, Object, OffsetCm, Threat,
+    Alert, Closing, ClosingCmS, Config, DecelMs2Q11, DistanceCm, Level, Millis, Object, OffsetCm, Threat, kernel,
 };
 use supervisor_perceive::{
     Assessment, CameraObject, Class, RadarObject, camera_object, merge, moved, radar_object, reached, reached_or_equal,
@@ -39,6 +39,7 @@ pub const ALL: &[(&str, Holds)] = &[
     ("fcw_1_forward_warning", fcw_1_forward_warning),
     ("pcw_1_pedestrian_warning", pcw_1_pedestrian_warning),
     ("fus_3d_any_object_permits", fus_3d_any_object_permits),
+    ("fus_3d_any_object_permits_by_need", fus_3d_any_object_permits_by_need),
     ("mit_8b_disagreement_is_reported", mit_8b_disagreement_is_reported),
     ("mit_6c_required_is_exact", mit_6c_required_is_exact),
 ];
@@ -183,6 +184,40 @@ fn permitted(distance: DistanceCm, closing: ClosingCmS, config: &Config) -> (boo
 pub fn fus_3d_any_object_permits(sight: &Sight<'_>) -> bool {
     let (mitigable, emergency) = permitted(sight.distance, sight.object.closing, sight.config);
     sight.assessed.mitigable == mitigable && sight.assessed.emergency == emergency
+}
+
+/// The deceleration that takes away the closing speed before the margin, by its kernel.
+fn needed(distance: DistanceCm, closing: ClosingCmS, config: &Config) -> DecelMs2Q11 {
+    let gap = distance.raw().saturating_sub(config.gap_margin.raw());
+    u16::try_from(closing.raw()).map_or(DecelMs2Q11::ZERO, |speed| DecelMs2Q11::new(kernel::needed(speed, gap)))
+}
+
+/// What one object of any sensor may permit, by the deceleration that it needs.
+fn permitted_by_need(distance: DistanceCm, closing: ClosingCmS, config: &Config) -> (bool, bool) {
+    let severe = needed(distance, closing, config) >= config.severe_decel || distance == DistanceCm::ZERO;
+    let within = |limit| reached_or_equal(distance, closing, limit);
+    (severe || within(config.mitigable_ttc), severe || within(config.emergency_ttc))
+}
+
+/// FUS-3d, MIT-8d, MIT-6c: any radar object permits, in the corridor or not, matched or not, by the deceleration that it needs or by T; a
+/// valid one requires that deceleration.
+#[must_use]
+pub fn fus_3d_any_object_permits_by_need(sight: &Sight<'_>) -> bool {
+    let (mitigable, emergency) = permitted_by_need(sight.distance, sight.object.closing, sight.config);
+    let required = needed(sight.distance, sight.object.closing, sight.config);
+    sight.assessed.mitigable == mitigable
+        && sight.assessed.emergency == emergency
+        && implies(sight.valid(), sight.assessed.required == required)
+}
+
+/// FUS-3d, FUS-3c, MIT-8d: a camera's object alone obliges nothing; it permits as a radar's does.
+#[must_use]
+pub fn fus_3d_camera_permits_by_need(object: &CameraObject, config: &Config) -> bool {
+    let assessed = camera_object(object, config);
+    let distance = moved(object.distance, object.closing, object.age, Millis::ZERO);
+    let rest = Assessment { mitigable: false, emergency: false, ..assessed };
+    let permitted = permitted_by_need(distance, object.closing, config);
+    rest == Assessment::NOTHING && (assessed.mitigable, assessed.emergency) == permitted
 }
 
 /// MIT-8a, MIT-8d: the same of a valid obstacle, by the deceleration that it requires.

@@ -143,7 +143,8 @@ pub fn rsp_1_abs_never_escalates(watch: &Watch<'_>) -> bool {
 #[must_use]
 pub fn rsp_1_help_stays_while_unknown(watch: &Watch<'_>) -> bool {
     let (old, new) = (watch.old, watch.new);
-    let blind = deceleration(watch).is_none() && brake_compared(watch);
+    let demanded = brake_compared(watch) && old.service > DecelMs2Q11::ZERO;
+    let blind = deceleration(watch).is_none() && demanded;
     implies(brake_compared(watch) && old.helps, new.helps && watch.response.brake != Deviation::None)
         && implies(blind, new.brake == old.brake && new.brake_over == old.brake_over)
         && implies(executed(watch).is_none(), new.disobeys == old.disobeys && new.excess == old.excess)
@@ -197,7 +198,8 @@ pub fn trq_7_excess_is_found_exactly(watch: &Watch<'_>) -> bool {
     let twice = Millis::new(time.raw().saturating_add(config.response_drive.raw()));
     let told = if old.excess.is_running() { old.told.max(old.torque) } else { old.torque };
     let base = if old.disobeys { 0 } else { u16::from(told.raw()) };
-    let most = base.saturating_add(share(base, config.response_error)) + u16::from(config.torque_excess.raw());
+    let most =
+        base.saturating_add(share(base, config.response_error)).saturating_add(config.torque_excess.raw().into());
     let found = match executed(watch) {
         None => new.excess == old.excess && new.told == old.told && new.disobeys == old.disobeys,
         Some(measured) if measured > most => {

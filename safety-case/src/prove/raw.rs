@@ -54,9 +54,6 @@ impl Raw {
         let mut packer = GzBuilder::new().mtime(0).operating_system(255).write(Vec::new(), Compression::best());
         let bytes = packer.write_all(&self.0).and_then(|()| packer.finish()).map_err(|error| file(&path, error))?;
         write(&path, &bytes)
-        let mut into = GzBuilder::new().mtime(0).operating_system(255).write(Vec::new(), Compression::best());
-        let packed = into.write_all(&self.0).and_then(|()| into.finish()).map_err(|error| file(&path, error))?;
-        write(&path, &packed)
     }
 
     /// Reads it.
