@@ -47,7 +47,11 @@ impl Prover for Kani {
         let options = Options { timeout: Some(timeout), ..Options::default() };
         match verify(copy.root(), &copy.target().join("kani"), &harness, &options) {
             Ok(done) => Ok((done.verdict, Some(done.tools))),
-            // The copy compiles, so this is Kani itself: no catch.
+            // The shipped code compiles, so it is the harnesses that do not: then no mistake can be judged.
+            Err(ProveError::NoResult { harness, log }) if log.contains("Failed to execute cargo") => {
+                Err(ProveError::NoResult { harness, log })
+            }
+            // Kani or CBMC itself: no catch.
             Err(ProveError::NoResult { log, .. }) => {
                 let last = log.lines().last().unwrap_or("nothing").to_owned();
                 Ok((Verdict::Undetermined(format!("no result: {last}")), None))
