@@ -72,7 +72,9 @@ proptest! {
             time = on(time, span);
             match kind {
                 0 => qualifier.bad(time, timing),
-                1 => drop(qualifier.quality(time, timing)),
+                1 => {
+                    let _ = qualifier.quality(time, timing);
+                }
                 _ => qualifier.good(time, timing),
             }
         }
@@ -103,7 +105,7 @@ proptest! {
             time = Millis::new(time.raw().wrapping_add(span));
             current = (current + kind) % message.protection().counts();
             let refused = u64::from(kind == 7) << 60;
-            drop(link.receive(time, &frame(current, write(message, &old) ^ refused), &mut { old }));
+            let _ = link.receive(time, &frame(current, write(message, &old) ^ refused), &mut { old });
         }
         let now = Millis::new(time.raw().wrapping_add(now));
         let [one, two, three, any] = noise;

@@ -2,7 +2,7 @@
 
 use supervisor_core::{DecelMs2Q11, Mode};
 
-use super::{Any, uninterpreted};
+use super::Any;
 use crate::properties::brake::{mit_4b_greatest_demand_exactly, rule_1d_slow_is_kept};
 use crate::properties::cap::{
     phb_1_cap_exactly, phb_1_never_against_obligation_or_driver, phb_1b_full_cap_in_danger,
@@ -16,7 +16,7 @@ use crate::properties::retarder::ret_1b_bound_exactly;
 /// for any map from pedal to deceleration.
 #[kani::proof]
 #[kani::unwind(17)]
-#[kani::stub(supervisor_core::kernel::share_up, uninterpreted::share_up)]
+#[kani::stub(supervisor_core::kernel::share_up, crate::harness::uninterpreted::share_up)]
 fn phb_1_cap_and_obligation_exactly() {
     let any = Any::new();
     let outputs = kani::any();

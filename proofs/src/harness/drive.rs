@@ -5,7 +5,7 @@ use supervisor_core::{
     vet_warnings,
 };
 
-use super::{Any, uninterpreted};
+use super::Any;
 use crate::properties::drive::{
     e2e_2_lost_drive_command, self_11_torque_is_exactly_bounded, trq_1_pedal_governs, trq_2_automated_torque_needs_all,
     trq_5_counts_from_our_last_output, trq_5_release_after_leave, trq_5_within_limit_and_ramp, trq_6_hill_hold,
@@ -37,9 +37,9 @@ impl Any {
 /// up to what is permitted; and what each requirement says of it, one by one.
 #[kani::proof]
 #[kani::unwind(17)]
-#[kani::stub(supervisor_core::kernel::portion, uninterpreted::portion)]
-#[kani::stub(supervisor_core::kernel::between_down, uninterpreted::between_down)]
-#[kani::stub(supervisor_core::kernel::within_percent, uninterpreted::within_percent)]
+#[kani::stub(supervisor_core::kernel::portion, crate::harness::uninterpreted::portion)]
+#[kani::stub(supervisor_core::kernel::between_down, crate::harness::uninterpreted::between_down)]
+#[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent)]
 fn self_11_torque_up_to_what_is_permitted() {
     let any = Any::new();
     let outputs = any.driving();
@@ -62,9 +62,9 @@ fn self_11_torque_up_to_what_is_permitted() {
 /// cycle counts from and remembers of drive, mode and steering.
 #[kani::proof]
 #[kani::unwind(17)]
-#[kani::stub(supervisor_core::kernel::portion, uninterpreted::portion)]
-#[kani::stub(supervisor_core::kernel::share_down, uninterpreted::share_down)]
-#[kani::stub(supervisor_core::kernel::within_percent, uninterpreted::within_percent)]
+#[kani::stub(supervisor_core::kernel::portion, crate::harness::uninterpreted::portion)]
+#[kani::stub(supervisor_core::kernel::share_down, crate::harness::uninterpreted::share_down)]
+#[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent)]
 fn cmd_3_next_cycle_counts_from_the_output() {
     let mut any = Any::new();
     let outputs = Outputs { steering: vet_steering(&any.decided.envelope, any.commands.steering).0, ..any.driving() };

@@ -7,7 +7,6 @@ use supervisor_perceive::{CameraObject, MAX_CAMERA};
 use supervisor_wire::inspect::{Entry, Link, List, Values, identify};
 use supervisor_wire::{Destination, Message, Protection, Sender, Timing};
 
-use super::uninterpreted;
 use crate::properties::frame::{
     Arrival, cmd_1_taken_means_encoded_the_same, cmd_1a_closed_table, cmd_2b_fresh_only_when_taken,
     cmd_2c_held_up_to_its_timeout, cmd_3c_outputs_come_back, cmd_3c_written_is_read, cmd_3e_counters_run_on,
@@ -198,7 +197,7 @@ fn cmd_1_identifiers() {
 /// E2E-1d, RULE-6c: any inputs, any configuration.
 #[kani::proof]
 #[kani::unwind(17)]
-#[kani::stub(supervisor_core::kernel::within_percent, uninterpreted::within_percent)]
+#[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent)]
 fn e2e_1_redundant() {
     let inputs: Inputs = kani::any();
     let bounds = (kani::any(), kani::any(), kani::any());

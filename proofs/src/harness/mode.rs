@@ -2,7 +2,7 @@
 
 use supervisor_core::{Commands, DrivingMode, ExitReason, Mode, SpeedKmhQ8, vet};
 
-use super::{Any, uninterpreted};
+use super::Any;
 use crate::properties::mode::{
     mode_1_begins_only_by_the_driver, mode_1_ends_exactly_for_a_reason, spd_1_target_speed_is_exactly_bounded,
     trq_4_never_against_an_obligation, trq_4_override_suspends,
@@ -11,8 +11,8 @@ use crate::properties::mode::{
 /// MODE-1, TRQ-3c, TRQ-4, SPD-1: when the mode begins, is suspended and ends, exactly; and the target speed with it.
 #[kani::proof]
 #[kani::unwind(17)]
-#[kani::stub(supervisor_core::kernel::portion, uninterpreted::portion)]
-#[kani::stub(supervisor_core::kernel::within_percent, uninterpreted::within_percent)]
+#[kani::stub(supervisor_core::kernel::portion, crate::harness::uninterpreted::portion)]
+#[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent)]
 fn mode_1_begins_is_suspended_and_ends() {
     let any = Any::new();
     let outputs = any.driving();

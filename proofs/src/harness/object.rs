@@ -12,7 +12,6 @@ use supervisor_perceive::{
 };
 
 use super::configured::any_limits;
-use super::uninterpreted;
 use crate::properties::object::{
     Sight, fcw_1_forward_warning, fcw_1_threat_says_what_was_merged, fus_3c_only_a_valid_obstacle_obliges,
     fus_3d_any_object_permits_by_need, fus_3d_camera_permits_by_need, fus_3e_one_corridor,
@@ -44,10 +43,10 @@ fn self_1_objects_are_total() {
 /// MIT-1 to MIT-3, MIT-8, FUS-3: one radar object.
 #[kani::proof]
 #[kani::unwind(17)]
-#[kani::stub(supervisor_core::kernel::nearer_than, uninterpreted::nearer_than)]
-#[kani::stub(supervisor_core::kernel::farther_than, uninterpreted::farther_than)]
-#[kani::stub(supervisor_core::kernel::needed, uninterpreted::needed)]
-#[kani::stub(supervisor_perceive::moved, uninterpreted::moved)]
+#[kani::stub(supervisor_core::kernel::nearer_than, crate::harness::uninterpreted::nearer_than)]
+#[kani::stub(supervisor_core::kernel::farther_than, crate::harness::uninterpreted::farther_than)]
+#[kani::stub(supervisor_core::kernel::needed, crate::harness::uninterpreted::needed)]
+#[kani::stub(supervisor_perceive::moved, crate::harness::uninterpreted::moved)]
 fn mit_1_one_object() {
     let (object, class, config): (RadarObject, Option<Class>, Config) = (kani::any(), kani::any(), any_limits());
     let sight = Sight::of(&object, class, &config);
@@ -66,10 +65,10 @@ fn mit_1_one_object() {
 /// FUS-3d, MIT-6c, MIT-8, FCW-1, PCW-1: one radar object, what it permits and warns of.
 #[kani::proof]
 #[kani::unwind(17)]
-#[kani::stub(supervisor_core::kernel::nearer_than, uninterpreted::nearer_than)]
-#[kani::stub(supervisor_core::kernel::farther_than, uninterpreted::farther_than)]
-#[kani::stub(supervisor_core::kernel::needed, uninterpreted::needed)]
-#[kani::stub(supervisor_perceive::moved, uninterpreted::moved)]
+#[kani::stub(supervisor_core::kernel::nearer_than, crate::harness::uninterpreted::nearer_than)]
+#[kani::stub(supervisor_core::kernel::farther_than, crate::harness::uninterpreted::farther_than)]
+#[kani::stub(supervisor_core::kernel::needed, crate::harness::uninterpreted::needed)]
+#[kani::stub(supervisor_perceive::moved, crate::harness::uninterpreted::moved)]
 fn fus_3d_one_object() {
     let (object, class, config): (RadarObject, Option<Class>, Config) = (kani::any(), kani::any(), any_limits());
     let sight = Sight::of(&object, class, &config);
@@ -85,10 +84,10 @@ fn fus_3d_one_object() {
 /// FUS-3d: one camera object.
 #[kani::proof]
 #[kani::unwind(17)]
-#[kani::stub(supervisor_core::kernel::nearer_than, uninterpreted::nearer_than)]
-#[kani::stub(supervisor_core::kernel::farther_than, uninterpreted::farther_than)]
-#[kani::stub(supervisor_core::kernel::needed, uninterpreted::needed)]
-#[kani::stub(supervisor_perceive::moved, uninterpreted::moved)]
+#[kani::stub(supervisor_core::kernel::nearer_than, crate::harness::uninterpreted::nearer_than)]
+#[kani::stub(supervisor_core::kernel::farther_than, crate::harness::uninterpreted::farther_than)]
+#[kani::stub(supervisor_core::kernel::needed, crate::harness::uninterpreted::needed)]
+#[kani::stub(supervisor_perceive::moved, crate::harness::uninterpreted::moved)]
 fn fus_3d_camera() {
     let (object, config): (CameraObject, Config) = (kani::any(), any_limits());
     assert!(fus_3d_camera_permits_by_need(&object, &config));
@@ -117,9 +116,9 @@ fn fcw_1_threat() {
 /// obliges and permits nothing.
 #[kani::proof]
 #[kani::unwind(33)]
-#[kani::stub(supervisor_core::kernel::nearer_than, uninterpreted::nearer_than)]
-#[kani::stub(supervisor_core::kernel::farther_than, uninterpreted::farther_than)]
-#[kani::stub(supervisor_core::kernel::needed, uninterpreted::needed)]
+#[kani::stub(supervisor_core::kernel::nearer_than, crate::harness::uninterpreted::nearer_than)]
+#[kani::stub(supervisor_core::kernel::farther_than, crate::harness::uninterpreted::farther_than)]
+#[kani::stub(supervisor_core::kernel::needed, crate::harness::uninterpreted::needed)]
 fn mit_6_fold() {
     let (object, config): (RadarObject, Config) =
         (RadarObject { closing: ClosingCmS::ZERO, ..kani::any() }, any_limits());

@@ -1,11 +1,10 @@
 //! Whether the actuators follow: the monitors on any state, inputs, outputs and configuration (RSP-1, TRQ-7, SELF-10).
 
 use supervisor_core::{
-    AngleDeciDeg, Config, DecelMs2Q11, Deviation, Evidence, Faults, Gear, Inputs, Millis, Monitors, Moves, Outputs,
-    Response, SteeredAngle, Ticks,
+    Config, DecelMs2Q11, Deviation, Evidence, Faults, Gear, Inputs, Millis, Monitors, Moves, Outputs, Response,
+    SteeredAngle, Ticks,
 };
 
-use super::uninterpreted;
 use crate::properties::follow::{Pursuit, Turn, rsp_1_follow, rsp_1_follow_fails, rsp_1_steered, rsp_1_steered_fails};
 use crate::properties::response::{
     Watch, rsp_1_abs_never_escalates, rsp_1_brake_escalates_exactly, rsp_1_brake_is_compared,
@@ -91,9 +90,9 @@ fn rsp_1_wheel_follows() {
 /// RSP-1a to RSP-1m, VLC-2f, TRQ-7a, TRQ-7b, RULE-1d, EPB-1b: brakes, drive, gearbox and steering.
 #[kani::proof]
 #[kani::unwind(17)]
-#[kani::stub(supervisor_core::kernel::share_down, uninterpreted::share_down)]
-#[kani::stub(supervisor_core::kernel::within_percent, uninterpreted::within_percent)]
-#[kani::stub(supervisor_core::Follow::advance, uninterpreted::follow)]
+#[kani::stub(supervisor_core::kernel::share_down, crate::harness::uninterpreted::share_down)]
+#[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent)]
+#[kani::stub(supervisor_core::Follow::advance, crate::harness::uninterpreted::follow)]
 fn rsp_1_deviations_are_found_exactly() {
     let any = AnyWatch::new();
     let watch = any.watch();

@@ -2,7 +2,7 @@
 
 use supervisor_core::{DecelMs2Q11, Faults, Millis, Outputs, Percent, vet_retarder};
 
-use super::{Any, uninterpreted};
+use super::Any;
 use crate::properties::body::{
     body_1c_delay_counts_real_time, body_1c_lamps_go_off_after_the_delay, e2e_1g_timeouts_as_configured,
 };
@@ -41,7 +41,7 @@ fn vlc_2_bounds_of_the_road() {
 /// E2E-2, CMD-3f, BODY-1c: for how long a lost request holds, how it falls then, and what the next cycle begins with.
 #[kani::proof]
 #[kani::unwind(17)]
-#[kani::stub(supervisor_core::kernel::fallen, uninterpreted::fallen)]
+#[kani::stub(supervisor_core::kernel::fallen, crate::harness::uninterpreted::fallen)]
 fn e2e_2_lost_request_and_record() {
     let mut any = Any::new();
     let outputs = kani::any();

@@ -2,7 +2,7 @@
 
 use supervisor_core::{Outputs, Percent, vet_steering};
 
-use super::{Any, uninterpreted};
+use super::Any;
 use crate::properties::steering::{
     str_1_angle_is_exactly_bounded, str_1_overlay_below_takeover, str_1_rate_and_bar_never_widened,
     str_2_idle_commands_nothing, str_2_overlay_fades, str_2_permitted_exactly, str_2_weight_fades,
@@ -11,9 +11,9 @@ use crate::properties::steering::{
 /// STR-1, STR-2, SELF-5g, E2E-2i: when it may act, how it begins and ends, and how far it turns meanwhile.
 #[kani::proof]
 #[kani::unwind(17)]
-#[kani::stub(supervisor_core::kernel::portion, uninterpreted::portion)]
-#[kani::stub(supervisor_core::kernel::share_down, uninterpreted::share_down)]
-#[kani::stub(supervisor_core::kernel::within_percent, uninterpreted::within_percent)]
+#[kani::stub(supervisor_core::kernel::portion, crate::harness::uninterpreted::portion)]
+#[kani::stub(supervisor_core::kernel::share_down, crate::harness::uninterpreted::share_down)]
+#[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent)]
 fn str_1_steering_is_exactly_bounded() {
     let any = Any::new();
     let steering = vet_steering(&any.decided.envelope, any.commands.steering).0;

@@ -7,8 +7,7 @@
 use core::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 
 use supervisor_core::word::Word;
-use supervisor_core::{Follow, Millis};
-use supervisor_core::{ClosingCmS, DistanceCm, Millis};
+use supervisor_core::{ClosingCmS, DistanceCm, Follow, Millis};
 
 /// More calls than any harness makes; one more is a failed proof, not a silent one.
 const CALLS: usize = 16;
@@ -116,38 +115,54 @@ pub(super) fn follow(old: Follow, target: u16, measured: Option<u16>, error: u8,
 
 /// For [`kernel::nearer_than`](supervisor_core::kernel::nearer_than).
 pub(super) fn nearer_than(distance: u16, closing: u16, limit: u32) -> bool {
-    static SEEN: Calls = Calls::new();
-    SEEN.of(u64::from(limit) << 32 | u64::from(distance) << 16 | u64::from(closing)) & 1 == 1
+    static SEEN: Calls<1> = Calls::new();
+    let result: bool = kani::any();
+    let arguments = u64::from(limit) << 32 | u64::from(distance) << 16 | u64::from(closing);
+    SEEN.agree([arguments], [u64::from(result), 0]);
+    result
 }
 
 /// For [`kernel::farther_than`](supervisor_core::kernel::farther_than).
 pub(super) fn farther_than(distance: u16, closing: u16, limit: u32) -> bool {
-    static SEEN: Calls = Calls::new();
-    SEEN.of(u64::from(limit) << 32 | u64::from(distance) << 16 | u64::from(closing)) & 1 == 1
+    static SEEN: Calls<1> = Calls::new();
+    let result: bool = kani::any();
+    let arguments = u64::from(limit) << 32 | u64::from(distance) << 16 | u64::from(closing);
+    SEEN.agree([arguments], [u64::from(result), 0]);
+    result
 }
 
 /// For [`kernel::needed`](supervisor_core::kernel::needed).
 pub(super) fn needed(closing: u16, gap: u16) -> u16 {
-    static SEEN: Calls = Calls::new();
-    low(SEEN.of(u64::from(closing) << 16 | u64::from(gap)), 0xFFFF)
+    static SEEN: Calls<1> = Calls::new();
+    let result: u16 = kani::any();
+    SEEN.agree([u64::from(closing) << 16 | u64::from(gap)], [u64::from(result), 0]);
+    result
 }
 
 /// For [`moved`](supervisor_perceive::moved) to now.
 pub(super) fn moved(distance: DistanceCm, closing: ClosingCmS, age: Millis, then: Millis) -> DistanceCm {
-    static SEEN: Calls = Calls::new();
+    static SEEN: Calls<1> = Calls::new();
     assert!(then == Millis::ZERO);
+    let result: u16 = kani::any();
     let speed = u64::from(closing.raw().cast_unsigned());
-    DistanceCm::new(low(SEEN.of(u64::from(age.raw()) << 32 | u64::from(distance.raw()) << 16 | speed), 0xFFFF))
+    let arguments = u64::from(age.raw()) << 32 | u64::from(distance.raw()) << 16 | speed;
+    SEEN.agree([arguments], [u64::from(result), 0]);
+    DistanceCm::new(result)
 }
 
 /// For [`kernel::share_up`](supervisor_core::kernel::share_up).
 pub(super) fn share_up(full: u16, part: u8, whole: u8) -> u16 {
-    static SEEN: Calls = Calls::new();
-    low(SEEN.of(u64::from(full) << 16 | u64::from(part) << 8 | u64::from(whole)), 0xFFFF)
+    static SEEN: Calls<1> = Calls::new();
+    let result: u16 = kani::any();
+    let arguments = u64::from(full) << 16 | u64::from(part) << 8 | u64::from(whole);
+    SEEN.agree([arguments], [u64::from(result), 0]);
+    result
 }
 
 /// For [`kernel::fallen`](supervisor_core::kernel::fallen).
 pub(super) fn fallen(per_second: u16, elapsed: u32) -> u16 {
-    static SEEN: Calls = Calls::new();
-    low(SEEN.of(u64::from(per_second) << 32 | u64::from(elapsed)), 0xFFFF)
+    static SEEN: Calls<1> = Calls::new();
+    let result: u16 = kani::any();
+    SEEN.agree([u64::from(per_second) << 32 | u64::from(elapsed)], [u64::from(result), 0]);
+    result
 }

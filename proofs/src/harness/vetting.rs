@@ -4,7 +4,7 @@
 //! *any*, so what is proved per channel holds for the whole vector.
 
 use supervisor_core::{
-    Bound, Command, Commands, Envelope, Kind, Millis, Outputs, Percent, Verdict, vet_auxiliaries, vet_body, vet_brake,
+    Bound, Command, Commands, Envelope, Kind, Millis, Percent, Verdict, vet_auxiliaries, vet_body, vet_brake,
     vet_contactors, vet_drive, vet_epb, vet_gear, vet_mode, vet_retarder, vet_steering, vet_target_speed, vet_warnings,
 };
 
