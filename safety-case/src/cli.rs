@@ -119,6 +119,7 @@ It replays the values that Kani found through the harness, where they can be pri
 Examples:
   supervise prove                                    all of them, and the record
   supervise prove --harness seat_4_epb_applied_in_leave
+  supervise prove --stale                            what is not proved today, after a change or a broken-off run
   supervise prove --quick                            for CI: compiles all, proves some again
   supervise prove --shard 2/4                        one part of four, on a machine of its own
   supervise prove --merge part-*/record.json         the record out of all parts
@@ -320,6 +321,9 @@ pub struct Prove {
     /// Only these harnesses (names of proofs/harnesses.toml)
     #[arg(long, value_name = "NAME", num_args = 1..)]
     pub harness: Vec<String>,
+    /// Only what the record does not show as proved on the present sources: goes on where a run was broken off
+    #[arg(long, conflicts_with_all = ["quick", "check", "merge", "playback"])]
+    pub stale: bool,
     /// How many run at once; without it, one for each core
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     pub jobs: Option<u16>,

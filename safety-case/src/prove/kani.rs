@@ -108,12 +108,7 @@ pub fn verify(root: &Path, target: &Path, harness: &Harness, options: &Options) 
     select(&mut command, harness, options);
     command.args(["--output-format", "terse", "--export-json"]).arg(&export);
     let started = Instant::now();
-    if harness.checks == Checks::Own {
-        command.arg("--cbmc-args");
-        for name in own(root, target, harness, options)? {
-            command.args(["--property", &name]);
-        }
-    }
+    restrict(&mut command, root, target, harness, options)?;
     let log = run(&mut command, &target.join(format!("{}.log", harness.name)))?;
     let seconds = started.elapsed().as_secs();
     if !export.exists() {
@@ -127,6 +122,23 @@ pub fn verify(root: &Path, target: &Path, harness: &Harness, options: &Options) 
         return Err(ProveError::NoResult { harness: harness.name.clone(), log: end(&read(&log)?) });
     };
     Ok(Outcome { verdict: judge(&json, &id), checks, covers, seconds, solver, tools: Tools::of(&json), raw })
+}
+
+/// Leaves a harness of [`Checks::Own`] its own checks. Goes last: Kani hands on whatever follows to CBMC.
+fn restrict(
+    command: &mut Command,
+    root: &Path,
+    target: &Path,
+    harness: &Harness,
+    options: &Options,
+) -> Result<(), ProveError> {
+    if harness.checks == Checks::Own {
+        command.arg("--cbmc-args");
+        for name in own(root, target, harness, options)? {
+            command.args(["--property", &name]);
+        }
+    }
+    Ok(())
 }
 
 /// The names of the checks that a harness of [`Checks::Own`] decides: what stands in this package, and the bound of
@@ -207,6 +219,7 @@ pub fn playback(root: &Path, target: &Path, harness: &Harness, options: &Options
     let mut command = command(root, target, options.configuration.as_deref());
     select(&mut command, harness, options);
     command.args(["-Z", "concrete-playback", "--concrete-playback=print"]);
+    restrict(&mut command, root, target, harness, options)?;
     let log = run(&mut command, &target.join(format!("{}-playback.log", harness.name)))?;
     Ok(tests_in(&read(&log)?))
 }
@@ -223,6 +236,8 @@ fn tests_in(log: &str) -> Vec<String> {
 fn command(root: &Path, target: &Path, configuration: Option<&Path>) -> Command {
     let mut command = Command::new("cargo");
     command.current_dir(root).args(["kani", "-p", PACKAGE, "--target-dir"]).arg(target);
+    // Kani refuses sources with a stub in any of their harnesses without it, also where another one runs.
+    command.args(["-Z", "stubbing"]);
     match configuration {
         Some(file) => command.env(CONFIGURATION, file),
         None => command.env_remove(CONFIGURATION),
@@ -236,9 +251,6 @@ fn select(command: &mut Command, harness: &Harness, options: &Options) {
     let timeout = options.timeout.unwrap_or(Duration::from_secs(harness.timeout));
     command.args(["--exact", "--harness", &harness.id(), "-Z", "unstable-options"]);
     command.args(["--solver", &solver.to_string(), "--harness-timeout", &format!("{}s", timeout.as_secs())]);
-    if harness.stubs {
-        command.args(["-Z", "stubbing"]);
-    }
     if !harness.reach_checks {
         command.arg("--no-assertion-reach-checks");
     }

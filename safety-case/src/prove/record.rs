@@ -45,7 +45,7 @@ pub struct Proof {
     pub sources: String,
     /// Digest of the sealed configuration it ran with.
     pub configuration: String,
-    /// SHA-256 of its raw result, unpacked.
+    /// Digest of its raw result, unpacked.
     pub result: String,
 }
 

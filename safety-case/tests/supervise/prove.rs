@@ -50,8 +50,8 @@ impl Bench {
         for folder in ["terms", "observe", "core", "perceive", "wire"] {
             bench.write(&format!("root/supervisor/{folder}/src/lib.rs"), "//! Nothing.\n")?;
         }
-        let functions: String = names.iter().map(|name| format!("#[kani::proof]\nfn {name}() {{}}\n")).collect();
-        bench.write("root/proofs/src/harness/m.rs", &functions)?;
+        let functions: Vec<String> = names.iter().map(|name| format!("#[kani::proof]\nfn {name}() {{}}\n")).collect();
+        bench.write("root/proofs/src/harness/m.rs", &functions.concat())?;
         bench.list(names, |_| String::new())?;
         let readme = "<!-- proofs: written by `supervise prove --table --write` -->\n<!-- end of proofs -->\n";
         bench.write("root/proofs/README.md", readme)?;
@@ -203,6 +203,11 @@ fn a_failure_a_missing_result_and_a_vacuous_proof_fail_and_stop_no_other() -> Ou
     );
     let ran = bench.run(&["--harness", "d"])?;
     assert_eq!(ran.code, 0, "{}", ran.out);
+    bench.export("a", "Success")?;
+    let ran = bench.run(&["--stale"])?;
+    assert!(ran.code == 1 && ran.out.contains("[3/3] ") && !ran.out.contains("] d: "), "{}", ran.out);
+    assert!(ran.out.contains("2 proved on the present sources; 2 failed"), "{}", ran.out);
+    bench.export("a", "Failure")?;
     let ran = bench.run(&["--harness", "a", "d"])?;
     assert_eq!(ran.code, 1, "{}", ran.out);
     let ran = bench.run(&["--harness", "x"])?;

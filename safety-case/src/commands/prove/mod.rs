@@ -55,7 +55,7 @@ pub(super) fn run(arguments: &Prove) -> Outcome {
     if arguments.playback {
         return gate.playback(&arguments.harness);
     }
-    if arguments.quick { gate.quick() } else { gate.prove(&arguments.harness, arguments.shard) }
+    if arguments.quick { gate.quick() } else { gate.prove(&arguments.harness, arguments.stale, arguments.shard) }
 }
 
 impl Gate {

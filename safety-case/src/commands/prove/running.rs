@@ -1,41 +1,54 @@
 //! What needs Kani: to run harnesses, to compare with the record, to make a test of a counterexample.
 
+use std::collections::BTreeSet;
 use std::fs;
+use std::io;
+use std::thread;
 
 use super::{FINDINGS, Gate, Outcome, print};
 use crate::prove::{
-    Harness, Outcome as Ran, Progress, Proof, ProveError, Quick, Record, Verdict, Workers, compile, differences, named,
-    ordered, playback, quick, shard, sources_digest,
+    Harness, Outcome as Ran, Progress, Proof, ProveError, Quick, RECORD, Record, State, Verdict, Workers, compile,
+    differences, named, ordered, playback, quick, shard, sources_digest,
 };
 
 impl Gate {
-    /// Runs the named harnesses, or all, or a shard of them, and keeps the record.
-    pub(super) fn prove(&self, names: &[String], part: Option<(usize, usize)>) -> Outcome {
-        let mut chosen = named(&self.list, names)?;
+    /// Runs the named harnesses, or all, or only what is not proved today, or a shard of these, and keeps the record.
+    pub(super) fn prove(&self, names: &[String], stale: bool, part: Option<(usize, usize)>) -> Outcome {
         let mut record = self.record()?;
+        let known = if self.configured() { record.clone() } else { Record::load(&self.root.join(RECORD))? };
+        let mut chosen = named(&self.list, names)?;
         if let Some(part) = part {
-            chosen = shard(&chosen, &Record::load(&self.root.join(crate::prove::RECORD))?, part);
+            chosen = shard(&chosen, &known, part);
         }
-        let whole = names.is_empty() && self.options.configuration.is_none();
-        let mut bad = 0_usize;
+        if stale {
+            let of = |harness: &Harness| State::of(harness, &record, &self.place, &self.present);
+            chosen.retain(|harness| !of(harness).is_proved());
+        }
+        let chosen = ordered(chosen, &known);
         // One of the shards looks for all of them.
-        if whole && part.is_none_or(|(shard, _)| shard == 1) {
-            bad = self.compare_with_kani()?;
-        }
-        let chosen = ordered(chosen, &record);
-        let known = record.clone();
-        self.workers().run(&chosen, &known, |harness, result, progress| match result {
-            Ok(ran) => {
-                if ran.verdict != Verdict::Proved && harness.open.is_none() {
-                    bad = bad.saturating_add(1);
+        let all = names.is_empty() && !self.configured() && part.is_none_or(|(shard, _)| shard == 1);
+        let (mut proved, mut bad) = (0_usize, 0_usize);
+        thread::scope(|scope| {
+            // Kani's list takes a compilation of all: it comes beside the proofs, and is compared when they are done.
+            let list = all.then(|| scope.spawn(|| compile(&self.root, &self.target.join("all"), &self.options)));
+            self.workers().run(&chosen, &known, |harness, result, progress| match result {
+                Ok(ran) => {
+                    proved = proved.saturating_add(usize::from(ran.verdict == Verdict::Proved));
+                    bad = bad.saturating_add(usize::from(ran.verdict != Verdict::Proved && harness.open.is_none()));
+                    told(harness, &ran, progress)?;
+                    self.keep(&mut record, harness, ran)
                 }
-                told(harness, &ran, progress)?;
-                self.keep(&mut record, harness, ran)
+                Err(error) => {
+                    bad = bad.saturating_add(1);
+                    line(progress, &format!("{}: NO RESULT: {error}", harness.name))
+                }
+            })?;
+            if let Some(list) = list {
+                let known =
+                    list.join().map_err(|_| ProveError::Arguments("the compilation of all broke off".to_owned()))?;
+                bad = bad.saturating_add(self.compared(&known?)?);
             }
-            Err(error) => {
-                bad = bad.saturating_add(1);
-                line(progress, &format!("{}: NO RESULT: {error}", harness.name))
-            }
+            Ok::<(), Box<dyn std::error::Error>>(())
         })?;
         if names.is_empty() && part.is_none() {
             // The table follows when the record is as it shall be.
@@ -43,7 +56,7 @@ impl Gate {
             let code = self.show(false)?;
             return Ok(if bad == 0 { code } else { FINDINGS });
         }
-        print(format_args!("{} of {} harnesses proved\n", chosen.len().saturating_sub(bad), chosen.len()))?;
+        print(format_args!("{proved} of {} harnesses proved\n", chosen.len()))?;
         Ok(if bad == 0 { 0 } else { FINDINGS })
     }
 
@@ -51,7 +64,8 @@ impl Gate {
     /// it is.
     pub(super) fn quick(&self) -> Outcome {
         let record = self.record()?;
-        let mut bad = self.compare_with_kani()?;
+        print(format_args!("compiling {} harnesses ...\n", self.list.harness.len()))?;
+        let mut bad = self.compared(&compile(&self.root, &self.target.join("all"), &self.options)?)?;
         let Quick { key, drawn, left_out } = quick(&self.list, &record, &self.present.sources, self.jobs);
         for (what, harnesses) in
             [("key", &key), ("drawn by the digest of the sources", &drawn), ("left out for time", &left_out)]
@@ -107,15 +121,17 @@ impl Gate {
         Ok(0)
     }
 
-    /// Compiles every harness; the number of lines in which the list and Kani differ.
-    fn compare_with_kani(&self) -> Result<usize, Box<dyn std::error::Error>> {
-        print(format_args!("compiling {} harnesses ...\n", self.list.harness.len()))?;
-        let known = compile(&self.root, &self.target.join("all"), &self.options)?;
-        let lines = differences(&self.list, &known);
+    /// Says where the list and the harnesses that Kani knows differ; the number of lines.
+    fn compared(&self, known: &BTreeSet<String>) -> io::Result<usize> {
+        let lines = differences(&self.list, known);
         for line in &lines {
             print(format_args!("{line}\n"))?;
         }
         Ok(lines.len())
+    }
+
+    fn configured(&self) -> bool {
+        self.options.configuration.is_some()
     }
 
     fn workers(&self) -> Workers<'_> {
