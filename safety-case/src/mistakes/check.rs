@@ -43,7 +43,6 @@ impl std::fmt::Display for Finding {
 pub(super) const fn word(outcome: &Outcome) -> &'static str {
     match outcome {
         Outcome::Caught { .. } => "caught",
-        Outcome::Noticed { .. } => "only a cover is lost",
         Outcome::Survived => "survived",
         Outcome::Undecided => "not decided in time",
         Outcome::DoesNotCompile { .. } => "does not compile",
@@ -86,7 +85,7 @@ fn of(mistake: &Mistake, entry: &Entry) -> Option<Finding> {
 fn drawn(list: &List, record: &Record, sources: &str) -> Vec<Finding> {
     let is_current = |entry: &&Entry| entry.sources == sources && record.drawn.seed == list.drawn.seed;
     let run: Vec<&Entry> = record.drawn.mistakes.iter().filter(is_current).collect();
-    let survives = |name: &str| run.iter().any(|entry| entry.name == name && !entry.outcome.is_stopped());
+    let survives = |name: &str| run.iter().any(|entry| entry.name == name && !entry.outcome.is_caught());
     let real = run.iter().filter(|entry| entry.outcome.is_mistake());
     let mut findings = Vec::new();
     let count = real.clone().count();
@@ -94,7 +93,7 @@ fn drawn(list: &List, record: &Record, sources: &str) -> Vec<Finding> {
         findings.push(Finding::Drawn(count, list.drawn.count));
     }
     let explained = |name: &str| list.explained.iter().any(|explained| explained.mutation == name);
-    let open = real.filter(|entry| !entry.outcome.is_stopped() && !explained(&entry.name));
+    let open = real.filter(|entry| !entry.outcome.is_caught() && !explained(&entry.name));
     findings.extend(open.map(|entry| Finding::Unexplained(entry.name.clone())));
     if count >= list.drawn.count {
         let idle = list.explained.iter().filter(|explained| !survives(&explained.mutation));
@@ -125,6 +124,7 @@ mod tests {
             find: String::new(),
             replace: String::new(),
             harness: vec![text("h")],
+            assertion: None,
             requirements: Vec::new(),
             survives: None,
         }
@@ -172,10 +172,9 @@ mod tests {
     }
 
     #[test]
-    fn a_lost_cover_is_no_catch_of_a_named_mistake() {
+    fn what_survives_or_is_not_decided_is_not_caught() {
         let list = list();
-        let noticed = Outcome::Noticed { harness: "h".to_owned(), cover: "c".to_owned() };
-        for outcome in [noticed, Outcome::Survived, Outcome::Undecided] {
+        for outcome in [Outcome::Survived, Outcome::Undecided] {
             let found = findings(&list, &record(&list, outcome.clone(), caught("h")), "now");
             assert_eq!(found, [Finding::NotCaught("m".to_owned(), outcome)]);
         }

@@ -27,6 +27,8 @@ pub struct Mistake {
     pub replace: String,
     /// The harnesses that must fail on it, in the order in which they are tried; one is enough.
     pub harness: Vec<String>,
+    /// The assertion of theirs that must fail, by its text; without it, any.
+    pub assertion: Option<String>,
     /// The requirements that it breaks.
     pub requirements: Vec<String>,
     /// Why no proof catches it, if it is known that none does. Such a mistake counts as a survivor.

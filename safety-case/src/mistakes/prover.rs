@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use super::copy::Copy;
 use super::record::{Outcome, Tried};
 use super::run::Task;
-use crate::prove::{Checks, Harness, Options, ProveError, Tools, Verdict, verify};
+use crate::prove::{Harness, Options, ProveError, Tools, Verdict, verify};
 
 /// The package with the harnesses.
 const PACKAGE: &str = "supervisor-proofs";
@@ -18,12 +18,17 @@ pub trait Prover: Sync {
     /// The compiler does not start.
     fn compiles(&self, copy: &Copy) -> Result<Result<(), String>, ProveError>;
 
-    /// The verdict of a harness, which gets this much time.
+    /// The verdict on the assertions of a harness whose text contains `assertion`, which get this much time.
     ///
     /// # Errors
     /// The tool fails.
-    fn verdict(&self, copy: &Copy, harness: &Harness, within: Duration)
-    -> Result<(Verdict, Option<Tools>), ProveError>;
+    fn verdict(
+        &self,
+        copy: &Copy,
+        harness: &Harness,
+        assertion: &str,
+        within: Duration,
+    ) -> Result<(Verdict, Option<Tools>), ProveError>;
 }
 
 /// Kani.
@@ -39,13 +44,14 @@ impl Prover for Kani {
         &self,
         copy: &Copy,
         harness: &Harness,
+        assertion: &str,
         within: Duration,
     ) -> Result<(Verdict, Option<Tools>), ProveError> {
         let timeout = within.min(Duration::from_secs(harness.timeout));
-        // A proof that fails by its own assertions needs none of the checks of what it calls.
-        let harness = Harness { checks: Checks::Own, ..harness.clone() };
-        let options = Options { timeout: Some(timeout), ..Options::default() };
-        match verify(copy.root(), &copy.target().join("kani"), &harness, &options) {
+        let options = Options { timeout: Some(timeout), assertion: Some(assertion.to_owned()), ..Options::default() };
+        match verify(copy.root(), &copy.target().join("kani"), harness, &options) {
+            // No cover was decided, so none is missing.
+            Ok(done) if matches!(done.verdict, Verdict::Vacuous(_)) => Ok((Verdict::Proved, Some(done.tools))),
             Ok(done) => Ok((done.verdict, Some(done.tools))),
             // The shipped code compiles, so it is the harnesses that do not: then no mistake can be judged.
             Err(ProveError::NoResult { harness, log }) if log.contains("Failed to execute cargo") => {
@@ -80,7 +86,7 @@ pub(super) fn judge(
             break;
         }
         let begun = Instant::now();
-        let (verdict, with) = prover.verdict(copy, harness, left)?;
+        let (verdict, with) = prover.verdict(copy, harness, &task.assertion, left)?;
         tools = tools.or(with);
         let name = harness.name.clone();
         tried.push(Tried { harness: name.clone(), verdict: word(&verdict), seconds: begun.elapsed().as_secs() });
@@ -88,9 +94,6 @@ pub(super) fn judge(
             (Verdict::Failed(check), _) => {
                 outcome = Outcome::Caught { harness: name, check };
                 break;
-            }
-            (Verdict::Vacuous(cover), Outcome::Survived | Outcome::Undecided) => {
-                Outcome::Noticed { harness: name, cover }
             }
             (Verdict::Undetermined(_), Outcome::Survived) => Outcome::Undecided,
             (Verdict::Proved | Verdict::Vacuous(_) | Verdict::Undetermined(_), before) => before,

@@ -21,15 +21,7 @@ pub enum Outcome {
         /// The check that failed.
         check: String,
     },
-    /// A harness does not fail on it, but no longer shows what it must: a cover that nothing reaches. The gate fails
-    /// on this, too; a named mistake must be caught by a check.
-    Noticed {
-        /// Which.
-        harness: String,
-        /// The cover.
-        cover: String,
-    },
-    /// Every harness that was tried is proved on it.
+    /// No assertion that was decided fails on it.
     Survived,
     /// No verdict within the time: not caught.
     Undecided,
@@ -41,10 +33,10 @@ pub enum Outcome {
 }
 
 impl Outcome {
-    /// Whether the gate of the proofs stops it.
+    /// Whether a proof fails on it.
     #[must_use]
-    pub const fn is_stopped(&self) -> bool {
-        matches!(self, Self::Caught { .. } | Self::Noticed { .. })
+    pub const fn is_caught(&self) -> bool {
+        matches!(self, Self::Caught { .. })
     }
     /// Whether it compiles.
     #[must_use]
@@ -165,6 +157,6 @@ mod tests {
         let written = serde_json::to_string(&Entry { outcome: caught.clone(), ..entry("a", 1) }).unwrap_or_default();
         assert!(written.contains(r#""outcome":"caught""#), "{written}");
         let read = serde_json::from_str::<Entry>(&written);
-        assert!(read.is_ok_and(|read| read.outcome == caught && read.outcome.is_stopped()));
+        assert!(read.is_ok_and(|read| read.outcome == caught && read.outcome.is_caught()));
     }
 }

@@ -64,6 +64,8 @@ pub(super) struct Task {
     pub name: String,
     pub change: Change,
     pub harnesses: Vec<Harness>,
+    /// Only the assertions whose text contains this.
+    pub assertion: String,
     pub within: Duration,
 }
 
@@ -175,7 +177,6 @@ fn told(entry: &Entry, done: usize, total: usize) -> String {
     let Entry { name, seconds, .. } = entry;
     let what = match &entry.outcome {
         Outcome::Caught { harness, check } => format!("caught by {harness} in {seconds} s: {check}"),
-        Outcome::Noticed { harness, cover } => format!("NOT CAUGHT, but noticed by {harness} in {seconds} s: {cover}"),
         Outcome::Survived => format!("SURVIVED, {seconds} s"),
         Outcome::Undecided => format!("UNDECIDED, {seconds} s"),
         Outcome::DoesNotCompile { error } => format!("does not compile: {error}"),
@@ -204,7 +205,8 @@ fn named(
             |entry: &Entry| entry.name == mistake.name && entry.sources == sources && entry.change == digest;
         if request.again || !record.named.iter().any(is_current) {
             let harnesses = chosen_of(harnesses, &mistake.harness);
-            tasks.push(Task { name: mistake.name.clone(), change, harnesses, within: NAMED });
+            let assertion = mistake.assertion.clone().unwrap_or_default();
+            tasks.push(Task { name: mistake.name.clone(), change, harnesses, assertion, within: NAMED });
         }
     }
     let wanted = tasks.len();
@@ -241,7 +243,7 @@ fn drawn(
         let harnesses = chosen_of(harnesses, list.harnesses(&listed.file, listed.function()));
         if !harnesses.is_empty() {
             let (change, within) = (listed.change(root)?, Duration::from_secs(list.drawn.within));
-            tasks.push(Task { name: listed.name, change, harnesses, within });
+            tasks.push(Task { name: listed.name, change, harnesses, assertion: String::new(), within });
         }
     }
     Ok((tasks, order, wanted))

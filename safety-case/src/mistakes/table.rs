@@ -12,16 +12,14 @@ const END: &str = "<!-- end of mistakes -->";
 /// How many of so many.
 struct Score {
     caught: usize,
-    noticed: usize,
     of: usize,
 }
 
 impl Score {
     fn of<'a>(entries: impl Iterator<Item = &'a Entry> + Clone) -> Self {
         let real = entries.filter(|entry| entry.outcome.is_mistake());
-        let caught = real.clone().filter(|entry| matches!(entry.outcome, Outcome::Caught { .. })).count();
-        let noticed = real.clone().filter(|entry| matches!(entry.outcome, Outcome::Noticed { .. })).count();
-        Self { caught, noticed, of: real.count() }
+        let caught = real.clone().filter(|entry| entry.outcome.is_caught()).count();
+        Self { caught, of: real.count() }
     }
 }
 
@@ -66,20 +64,19 @@ fn drawn(list: &List, record: &Record, sources: &str, lines: &mut Vec<String>) {
         return;
     }
     lines.push(format!(
-        "Of {} drawn by seed {} from the {} that cargo-mutants lists for `{}` ({} more do not compile), {} are caught by a \
-         check, {} noticed by a cover that nothing reaches any more (the gate fails on it, too), {} survive the proofs:",
+        "Of {} drawn by seed {} from the {} that cargo-mutants lists for `{}` ({} more do not compile), {} are caught and {} \
+         survive the proofs:",
         score.of,
         record.drawn.seed,
         record.drawn.of,
         list.drawn.package,
         run.len().saturating_sub(score.of),
         score.caught,
-        score.noticed,
-        score.of.saturating_sub(score.caught).saturating_sub(score.noticed),
+        score.of.saturating_sub(score.caught),
     ));
     lines.push(String::new());
     let survivors: Vec<&&Entry> =
-        run.iter().filter(|entry| entry.outcome.is_mistake() && !entry.outcome.is_stopped()).collect();
+        run.iter().filter(|entry| entry.outcome.is_mistake() && !entry.outcome.is_caught()).collect();
     if !survivors.is_empty() {
         lines.extend(["| survivor | | why |", "|---|---|---|"].map(str::to_owned));
     }
@@ -93,7 +90,7 @@ fn drawn(list: &List, record: &Record, sources: &str, lines: &mut Vec<String>) {
 fn by(outcome: &Outcome) -> String {
     match outcome {
         Outcome::Caught { harness, .. } => format!("`{harness}`"),
-        other @ (Outcome::Noticed { .. } | Outcome::Survived | Outcome::Undecided | Outcome::DoesNotCompile { .. }) => {
+        other @ (Outcome::Survived | Outcome::Undecided | Outcome::DoesNotCompile { .. }) => {
             format!("**{}**", word(other))
         }
     }
@@ -131,6 +128,7 @@ mod tests {
             find: text("a"),
             replace: text("b"),
             harness: Vec::new(),
+            assertion: None,
             requirements: Vec::new(),
             survives: survives.map(text),
         }
