@@ -213,7 +213,7 @@ pub fn compile(root: &Path, target: &Path, options: &Options) -> Result<BTreeSet
     }
     let mut command = command(root, target, options.configuration.as_deref());
     command.current_dir(target).arg("--manifest-path").arg(root.join("Cargo.toml"));
-    let log = run(command.args(["list", "--format", "json"]), &target.join("kani-list.log"))?;
+    let log = run(command.args(["list", "--format", "json", "-Z", "stubbing"]), &target.join("kani-list.log"))?;
     if !list.exists() {
         return Err(ProveError::NoResult { harness: "the list of harnesses".to_owned(), log: end(&read(&log)?) });
     }
