@@ -153,6 +153,13 @@ pub enum Command {
     /// Run the Kani harnesses, read the results as data, and keep the record
     #[command(long_about = PROVE)]
     Prove(Prove),
+    /// Plant mistakes in a copy of the sources and expect the proofs to fail
+    ///
+    /// The named ones of proofs/mistakes.toml, or with --drawn those that a seed draws from the list of cargo-mutants.
+    /// What the record already has for the present sources is not run again. Exits with 1 if a named mistake is not
+    /// caught by a proof on the present sources, or a drawn one survives without an explanation; with 4 if cargo kani
+    /// (or, for --drawn, cargo mutants) is not installed: nothing was run.
+    Mistakes(Mistakes),
     /// Trace every requirement to its code, limits, proofs and tests, by the ids in the sources
     #[command(long_about = TRACE)]
     Trace(TraceArgs),
@@ -362,6 +369,35 @@ pub struct Prove {
 fn part(text: &str) -> Result<(usize, usize), String> {
     let numbers = text.split_once('/').and_then(|(shard, of)| Some((shard.parse().ok()?, of.parse().ok()?)));
     numbers.filter(|(shard, of)| (1..=*of).contains(shard)).ok_or_else(|| "is not K/N with K from 1 to N".to_owned())
+}
+
+/// Arguments of `mistakes`.
+#[derive(Debug, Args)]
+pub struct Mistakes {
+    /// Only these named mistakes
+    #[arg(long, value_name = "NAME", conflicts_with_all = ["drawn", "shard"])]
+    pub name: Vec<String>,
+    /// So many drawn mistakes instead of the named ones
+    #[arg(long, value_name = "COUNT")]
+    pub drawn: Option<usize>,
+    /// Another seed than that of the list
+    #[arg(long, value_name = "NUMBER", requires = "drawn")]
+    pub seed: Option<u64>,
+    /// Only the K-th of N parts
+    #[arg(long, value_name = "K/N", value_parser = part)]
+    pub shard: Option<(usize, usize)>,
+    /// How many at a time
+    #[arg(long, value_name = "COUNT", default_value_t = 2)]
+    pub jobs: usize,
+    /// Run again what the record already has for the present sources
+    #[arg(long)]
+    pub again: bool,
+    /// Run nothing: say what the record does not show on the present sources
+    #[arg(long, conflicts_with_all = ["name", "drawn", "shard", "again"])]
+    pub check: bool,
+    /// Run nothing: write the table of the record into this file, between its marks
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["name", "drawn", "shard", "again"])]
+    pub write: Option<PathBuf>,
 }
 
 /// Arguments of `cost`.

@@ -17,6 +17,7 @@ pub mod digest;
 pub mod document;
 pub mod grid;
 pub mod lanes;
+pub mod mistakes;
 pub mod notes;
 pub mod number;
 pub mod page;

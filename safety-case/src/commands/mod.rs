@@ -5,6 +5,7 @@ mod config;
 mod cost;
 mod drives;
 mod limits;
+mod mistakes;
 mod prove;
 mod replay;
 mod trace;
@@ -37,6 +38,7 @@ pub fn run(cli: &Cli) -> ExitCode {
         Some(Command::Config(command)) => config::run(command),
         Some(Command::Analysis(arguments)) => analysis::run(arguments),
         Some(Command::Prove(arguments)) => prove::run(arguments),
+        Some(Command::Mistakes(arguments)) => mistakes::run(arguments),
         Some(Command::Trace(arguments)) => trace::run(arguments),
         Some(Command::Cost(arguments)) => cost::run(arguments),
     };

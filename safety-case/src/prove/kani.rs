@@ -34,6 +34,9 @@ pub struct Options {
     pub timeout: Option<Duration>,
     /// A sealed configuration, an absolute path; without it, the default one.
     pub configuration: Option<PathBuf>,
+    /// Decide nothing but the assertions of the harness whose text contains this: for one who looks for a failure. It
+    /// proves nothing, for no cover is decided.
+    pub assertion: Option<String>,
 }
 
 /// What a run of one harness came to.
@@ -142,7 +145,7 @@ fn restrict(
     harness: &Harness,
     options: &Options,
 ) -> Result<(), ProveError> {
-    if harness.checks == Checks::Own {
+    if harness.checks == Checks::Own || options.assertion.is_some() {
         command.arg("--cbmc-args");
         for name in own(root, target, harness, options)? {
             command.args(["--property", &name]);
@@ -165,14 +168,26 @@ fn own(root: &Path, target: &Path, harness: &Harness, options: &Options) -> Resu
     let said = command.stdin(Stdio::null()).stderr(Stdio::null()).output().map_err(ProveError::Tool)?;
     let json: Value = serde_json::from_slice(&said.stdout).map_err(|error| none(format!("cbmc: {error}")))?;
     let listed = json.as_array().into_iter().flatten().filter_map(|item| item.get("properties")?.as_array());
-    let names = listed.flatten().filter_map(|property| property.get("name")?.as_str());
-    let names: Vec<String> = names.filter(|name| is_own(name)).map(str::to_owned).collect();
+    let chosen = |property: &&Value| {
+        let text = |key: &str| property.get(key).and_then(Value::as_str).unwrap_or("");
+        match &options.assertion {
+            None => is_own(text("name")),
+            Some(wanted) => is_assertion(text("name")) && text("description").contains(wanted.as_str()),
+        }
+    };
+    let names = listed.flatten().filter(chosen).filter_map(|property| property.get("name")?.as_str());
+    let names: Vec<String> = names.map(str::to_owned).collect();
     if names.is_empty() { Err(none("cbmc lists no check of this harness".to_owned())) } else { Ok(names) }
 }
 
 /// Whether a check stands in the package with the harnesses, or bounds a loop.
 fn is_own(name: &str) -> bool {
     name.starts_with("harness::") || name.starts_with("properties::") || name.contains(".unwind.")
+}
+
+/// Whether it is an assertion that a harness makes.
+fn is_assertion(name: &str) -> bool {
+    name.starts_with("harness::") && name.contains(".assertion.")
 }
 
 /// The program that Kani linked last for a harness.
@@ -305,6 +320,13 @@ mod tests {
         assert!(is_own("properties::parking::seat_4_y.pointer_dereference.3"));
         assert!(is_own("core::iter::Iterator::all.unwind.0"));
         assert!(!is_own("supervisor_core::decide::decide.assertion.1"));
+    }
+
+    #[test]
+    fn assertions_are_those_of_harnesses() {
+        assert!(is_assertion("harness::parking::seat_4_x.assertion.1"));
+        assert!(!is_assertion("harness::parking::seat_4_x.cover.1"));
+        assert!(!is_assertion("supervisor_core::decide::decide.assertion.1"));
     }
 
     #[test]

@@ -73,6 +73,7 @@ impl Gate {
                 solver: arguments.solver,
                 timeout: arguments.timeout.map(Duration::from_secs),
                 configuration: None,
+                assertion: None,
             },
             jobs: arguments
                 .jobs

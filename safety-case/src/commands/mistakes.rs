@@ -1,0 +1,69 @@
+//! `supervise mistakes`.
+
+use std::fs;
+use std::path::Path;
+
+use super::{FINDINGS, NOT_RUN, Outcome, print};
+use crate::cli::Mistakes;
+use crate::mistakes::{Kani, List, Record, Request, Shard, block, check, replaced, run as plant};
+use crate::{mistakes, prove};
+
+pub(super) fn run(arguments: &Mistakes) -> Outcome {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().ok_or("the workspace has no folder")?;
+    let runs = !arguments.check && arguments.write.is_none();
+    if runs && let Some(missing) = missing(arguments) {
+        print(format_args!("NOT RUN HERE: {missing}. No mistake was planted; what follows is the record.\n"))?;
+        show(root, arguments)?;
+        return Ok(NOT_RUN);
+    }
+    if runs {
+        let request = Request {
+            names: arguments.name.clone(),
+            drawn: arguments.drawn,
+            seed: arguments.seed,
+            shard: arguments.shard.map_or(Shard::WHOLE, Shard::new),
+            jobs: arguments.jobs.max(1),
+            again: arguments.again,
+        };
+        let mut failure = None;
+        let mut say = |line: &str| {
+            if let Err(error) = print(format_args!("{line}\n")) {
+                failure = Some(error);
+            }
+        };
+        plant(root, &request, &Kani, &mut say)?;
+        if let Some(error) = failure {
+            return Err(error.into());
+        }
+    }
+    show(root, arguments)
+}
+
+fn missing(arguments: &Mistakes) -> Option<&'static str> {
+    if !prove::available() {
+        Some("cargo kani is not installed (cargo install --locked kani-verifier && cargo kani setup)")
+    } else if arguments.drawn.is_some() && !mistakes::available() {
+        Some("cargo mutants is not installed (cargo install --locked cargo-mutants)")
+    } else {
+        None
+    }
+}
+
+/// What the record shows on the present sources, and what it does not.
+fn show(root: &Path, arguments: &Mistakes) -> Outcome {
+    let (list, record, sources) = (List::load(root)?, Record::load(root)?, prove::sources_digest(root)?);
+    let block = block(&list, &record, &sources);
+    for line in block.lines().filter(|line| line.contains(" named mistakes are ") || line.starts_with("Of ")) {
+        print(format_args!("{line}\n"))?;
+    }
+    if let Some(path) = &arguments.write {
+        let text = fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))?;
+        let text = replaced(&text, &block).ok_or_else(|| format!("{}: no place for the table", path.display()))?;
+        fs::write(path, text).map_err(|error| format!("{}: {error}", path.display()))?;
+    }
+    let findings = check(&list, &record, root, &sources)?;
+    for finding in &findings {
+        print(format_args!("{finding}\n"))?;
+    }
+    Ok(if findings.is_empty() { 0 } else { FINDINGS })
+}

@@ -1,0 +1,207 @@
+//! A small copy of the workspace, in which a mistake is planted: the sources themselves are never touched.
+
+use std::collections::HashSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use super::change::Change;
+use crate::prove::ProveError;
+
+/// What the proofs are built from. Members of the workspace outside of it are left out of the copy's manifest.
+const FOLDERS: [&str; 2] = ["supervisor", "proofs"];
+/// What in there is none of it: workspaces of their own, builds, and recorded results.
+const OTHERS: [&str; 3] = ["creusot", "target", "results"];
+
+/// A copy of the workspace.
+#[derive(Clone, Debug)]
+pub struct Copy {
+    original: PathBuf,
+    root: PathBuf,
+    target: PathBuf,
+}
+
+fn failed(path: &Path, error: std::io::Error) -> ProveError {
+    ProveError::File { path: path.to_owned(), error }
+}
+
+impl Copy {
+    /// A copy in this folder, which need not exist; what is built of it goes beside it.
+    ///
+    /// # Errors
+    /// It cannot be written.
+    pub fn new(original: &Path, folder: &Path) -> Result<Self, ProveError> {
+        let (root, target) = (folder.join("copy"), folder.join("build"));
+        let copy = Self { original: original.to_owned(), root, target };
+        fs::create_dir_all(&copy.target).map_err(|error| failed(&copy.target, error))?;
+        copy.restore()?;
+        Ok(copy)
+    }
+
+    /// The root of the copied workspace.
+    #[must_use]
+    pub fn root(&self) -> &Path {
+        &self.root
+    }
+    /// Where it is built.
+    #[must_use]
+    pub fn target(&self) -> &Path {
+        &self.target
+    }
+
+    /// Makes the copy what the original is: whatever a mistake, or a run that was cut off, has left in it.
+    ///
+    /// A file that is as it must be is left alone, so that it is not built again.
+    ///
+    /// # Errors
+    /// A file cannot be read or written.
+    pub fn restore(&self) -> Result<(), ProveError> {
+        let mut wanted = HashSet::new();
+        for folder in FOLDERS {
+            self.take(Path::new(folder), &mut wanted)?;
+        }
+        for file in ["Cargo.lock", "clippy.toml"] {
+            let path = self.original.join(file);
+            let text = fs::read(&path).map_err(|error| failed(&path, error))?;
+            self.put(Path::new(file), &text)?;
+        }
+        self.put(Path::new("Cargo.toml"), self.manifest()?.as_bytes())?;
+        for folder in FOLDERS {
+            self.sweep(&self.root.join(folder), &wanted)?;
+        }
+        Ok(())
+    }
+
+    /// Restores the copy and plants one mistake.
+    ///
+    /// # Errors
+    /// A file cannot be read or written.
+    pub fn plant(&self, change: &Change) -> Result<(), ProveError> {
+        self.restore()?;
+        self.put(Path::new(&change.file), change.text.as_bytes())
+    }
+
+    /// Whether the copy compiles; if not, what the compiler says.
+    ///
+    /// # Errors
+    /// cargo does not start.
+    pub fn compiles(&self, package: &str) -> Result<Result<(), String>, ProveError> {
+        let mut command = Command::new("cargo");
+        command.current_dir(&self.root).args(["check", "--quiet", "--lib", "-p", package, "--target-dir"]);
+        command.arg(self.target.join("check")).stdin(Stdio::null());
+        let done = command.output().map_err(ProveError::Tool)?;
+        let said = String::from_utf8_lossy(&done.stderr);
+        let first = said.lines().find(|line| line.starts_with("error")).unwrap_or("error without a word");
+        Ok(if done.status.success() { Ok(()) } else { Err(first.to_owned()) })
+    }
+
+    fn put(&self, file: &Path, text: &[u8]) -> Result<(), ProveError> {
+        let path = self.root.join(file);
+        if fs::read(&path).is_ok_and(|present| present == text) {
+            return Ok(());
+        }
+        let folder = path.parent().map_or(Ok(()), fs::create_dir_all);
+        folder.and_then(|()| fs::write(&path, text)).map_err(|error| failed(&path, error))
+    }
+
+    fn take(&self, folder: &Path, wanted: &mut HashSet<PathBuf>) -> Result<(), ProveError> {
+        let from = self.original.join(folder);
+        for entry in fs::read_dir(&from).map_err(|error| failed(&from, error))? {
+            let entry = entry.map_err(|error| failed(&from, error))?;
+            let (name, path) = (folder.join(entry.file_name()), entry.path());
+            if path.is_dir() {
+                if !OTHERS.iter().any(|other| entry.file_name() == *other) {
+                    self.take(&name, wanted)?;
+                }
+            } else {
+                let text = fs::read(&path).map_err(|error| failed(&path, error))?;
+                self.put(&name, &text)?;
+                wanted.insert(self.root.join(name));
+            }
+        }
+        Ok(())
+    }
+
+    /// Removes what is no longer in the original.
+    fn sweep(&self, folder: &Path, wanted: &HashSet<PathBuf>) -> Result<(), ProveError> {
+        for entry in fs::read_dir(folder).map_err(|error| failed(folder, error))? {
+            let path = entry.map_err(|error| failed(folder, error))?.path();
+            if path.is_dir() {
+                self.sweep(&path, wanted)?;
+            } else if !wanted.contains(&path) {
+                fs::remove_file(&path).map_err(|error| failed(&path, error))?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The manifest of the workspace with the members that are copied.
+    fn manifest(&self) -> Result<String, ProveError> {
+        let path = self.original.join("Cargo.toml");
+        let form = |message: String| ProveError::Form { path: path.clone(), message };
+        let text = fs::read_to_string(&path).map_err(|error| failed(&path, error))?;
+        let mut manifest: toml::Table = text.parse().map_err(|error: toml::de::Error| form(error.to_string()))?;
+        let members = manifest.get_mut("workspace").and_then(|workspace| workspace.get_mut("members"));
+        let members =
+            members.and_then(toml::Value::as_array_mut).ok_or_else(|| form("it has no members".to_owned()))?;
+        let copied = |member: &str| FOLDERS.iter().any(|folder| Path::new(member).starts_with(folder));
+        members.retain(|member| member.as_str().is_some_and(copied));
+        toml::to_string(&manifest).map_err(|error| form(error.to_string()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+    use std::path::Path;
+
+    use super::{Change, Copy};
+
+    fn write(root: &Path, file: &str, text: &str) {
+        let path = root.join(file);
+        let folder = path.parent().map_or(Ok(()), fs::create_dir_all);
+        let done = folder.and_then(|()| fs::write(&path, text));
+        assert!(done.is_ok(), "{done:?}");
+    }
+
+    fn read(root: &Path, file: &str) -> String {
+        fs::read_to_string(root.join(file)).unwrap_or_default()
+    }
+
+    #[test]
+    fn a_mistake_stands_in_the_copy_alone_and_goes_again() {
+        let Ok(folder) = tempfile::tempdir() else { unreachable!("there is a temporary folder") };
+        let original = folder.path().join("original");
+        let manifest = "[workspace]\nmembers = [\"supervisor\", \"supervisor/core\", \"proofs\", \"tests\"]\n";
+        let source = "fn less() {}\n";
+        for (file, text) in [
+            ("Cargo.toml", manifest),
+            ("Cargo.lock", ""),
+            ("clippy.toml", ""),
+            ("supervisor/core/src/lib.rs", source),
+            ("proofs/src/lib.rs", source),
+            ("proofs/creusot/src/lib.rs", source),
+            ("tests/src/lib.rs", source),
+        ] {
+            write(&original, file, text);
+        }
+        let Ok(copy) = Copy::new(&original, &folder.path().join("worker")) else { unreachable!("it can be written") };
+        assert_eq!(read(copy.root(), "supervisor/core/src/lib.rs"), source);
+        assert!(!copy.root().join("proofs/creusot").exists() && !copy.root().join("tests").exists());
+        let text = read(copy.root(), "Cargo.toml");
+        assert!(text.contains("\"proofs\"") && !text.contains("\"tests\""), "{text}");
+
+        let change = Change { file: "supervisor/core/src/lib.rs".to_owned(), text: "fn more() {}\n".to_owned() };
+        assert!(copy.plant(&change).is_ok());
+        assert_eq!(read(copy.root(), "supervisor/core/src/lib.rs"), "fn more() {}\n");
+        assert_eq!(read(&original, "supervisor/core/src/lib.rs"), source);
+
+        write(copy.root(), "proofs/src/left.rs", source);
+        let other = Change { file: "proofs/src/lib.rs".to_owned(), text: "fn other() {}\n".to_owned() };
+        assert!(copy.plant(&other).is_ok());
+        assert_eq!(read(copy.root(), "supervisor/core/src/lib.rs"), source, "one mistake at a time");
+        assert!(!copy.root().join("proofs/src/left.rs").exists());
+        assert!(copy.restore().is_ok());
+        assert_eq!(read(copy.root(), "proofs/src/lib.rs"), source);
+    }
+}
