@@ -155,7 +155,9 @@ pub fn camera_object(object: &CameraObject, config: &Config) -> Assessment {
     Assessment { mitigable, emergency, ..Assessment::NOTHING }
 }
 
-/// Merges two assessments: everything that either says. Commutative and associative: no order of a list decides.
+/// Merges two assessments: everything that either says. Commutative, and associative in all that obliges or permits: no
+/// order of a list decides. Only which object is *named*, for explanation, can depend on the order of three: the greatest
+/// required deceleration is kept beside an object that need not be the one that requires it.
 #[must_use]
 pub fn merge(first: Assessment, second: Assessment) -> Assessment {
     // Between equally severe objects their values decide, the nearer one first.
