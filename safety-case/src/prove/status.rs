@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::fmt::{self, Display, Formatter};
 
-use super::harness::{Harness, List};
+use super::harness::{Checks, Harness, List};
 use super::judge::{Verdict, judge};
 use super::kani::counts;
 use super::raw::Raw;
@@ -25,7 +25,7 @@ pub enum State {
     Open(String),
     /// It never ran.
     NotRun,
-    /// It ran on other sources or with another configuration.
+    /// It ran on other sources, with another configuration, or decided less than it is to decide.
     Stale(Verdict),
     /// The raw result is missing, is another one, or does not say what the record says.
     Unsupported(String),
@@ -41,7 +41,9 @@ impl State {
             return Self::Open(open.clone());
         }
         let Some(proof) = record.of(&harness.name) else { return Self::NotRun };
-        if proof.sources != present.sources || proof.configuration != present.configuration {
+        // What decided its own checks only does not stand for a harness that is to decide all.
+        let less = harness.checks == Checks::All && proof.decides == Checks::Own;
+        if less || proof.sources != present.sources || proof.configuration != present.configuration {
             return Self::Stale(proof.verdict.clone());
         }
         match supported(harness, proof, place) {
@@ -132,25 +134,37 @@ mod tests {
         let list = list(&["a"])?;
         let harness = list.of("a").ok_or("a")?;
         let mut record = Record::default();
-        let mut state = |result: &str, present: &Present| {
+        let state = |record: &mut Record, result: &str, present: &Present| {
             record.put(Proof { result: result.to_owned(), ..proof("a", 3) }, &list);
-            State::of(harness, &record, &place, present)
+            State::of(harness, record, &place, present)
         };
-        assert!(matches!(state("r", &present()), State::Unsupported(_)), "no raw result");
+        assert!(matches!(state(&mut record, "r", &present()), State::Unsupported(_)), "no raw result");
 
         let raw = Raw::of(&export("Success"), folder.path());
         raw.save(&place.results, "a")?;
-        assert_eq!(state(&raw.digest(), &present()), State::Ran(Verdict::Proved));
-        assert!(matches!(state("r", &present()), State::Unsupported(_)), "another digest");
+        assert_eq!(state(&mut record, &raw.digest(), &present()), State::Ran(Verdict::Proved));
+        assert!(matches!(state(&mut record, "r", &present()), State::Unsupported(_)), "another digest");
         let others =
             [Present { sources: "t".to_owned(), ..present() }, Present { configuration: "d".to_owned(), ..present() }];
         for other in others {
-            assert_eq!(state(&raw.digest(), &other), State::Stale(Verdict::Proved));
+            assert_eq!(state(&mut record, &raw.digest(), &other), State::Stale(Verdict::Proved));
         }
+
+        record.put(Proof { result: raw.digest(), decides: Checks::Own, ..proof("a", 3) }, &list);
+        assert_eq!(
+            State::of(harness, &record, &place, &present()),
+            State::Stale(Verdict::Proved),
+            "its own checks only"
+        );
+        let own = Harness { checks: Checks::Own, ..harness.clone() };
+        assert_eq!(State::of(&own, &record, &place, &present()), State::Ran(Verdict::Proved));
 
         let failed = Raw::of(&export("Failure"), folder.path());
         failed.save(&place.results, "a")?;
-        assert!(matches!(state(&failed.digest(), &present()), State::Unsupported(_)), "a record that lies");
+        assert!(
+            matches!(state(&mut record, &failed.digest(), &present()), State::Unsupported(_)),
+            "a record that lies"
+        );
         Ok(())
     }
 
