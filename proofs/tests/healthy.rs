@@ -170,14 +170,14 @@ fn something_passes_near_the_healthy_cycle() {
             .collect();
         let Ok(witness) = witness(&bytes, &Config::DEFAULT) else { continue };
         let out = &witness.outputs;
-        let passes = [
+        let acts = [
             out.drive.torque > Percent::ZERO,
             out.mode == DrivingMode::Automated,
             out.steering.enable,
             out.target_speed > SpeedKmhQ8::ZERO,
         ];
-        for (count, passes) in passed.iter_mut().zip(passes) {
-            *count += u32::from(passes);
+        for (count, acts) in passed.iter_mut().zip(acts) {
+            *count += u32::from(acts);
         }
     }
     assert!(passed.iter().all(|count| *count > 50), "passed: {passed:?}");

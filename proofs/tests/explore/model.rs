@@ -215,7 +215,7 @@ impl Explorer {
                 node.broken = node.broken.or(Some(Broken::Promise(index)));
             }
         }
-        if count % TWICE == 0 {
+        if count.is_multiple_of(TWICE) {
             self.counts.twice.fetch_add(1, Ordering::Relaxed);
             let twin = normalised(&from.state, config);
             let (again, next) = self.step(&twin, vector.elapsed, &inputs, vector);
