@@ -57,7 +57,7 @@ fn broken(bytes: &[u8]) -> Result<Vec<&'static str>> {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 20_000, failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// RSP-1, TRQ-7a, SELF-10a, VLC-2f: every property of the monitors.
+    /// RSP-1a, TRQ-7a, SELF-10a, VLC-2f: every property of the monitors.
     #[test]
     fn every_property_of_the_monitors_holds(bytes in vec(any::<u8>(), BYTES)) {
         assert_eq!(broken(&bytes), Ok(vec![]));

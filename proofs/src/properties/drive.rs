@@ -73,7 +73,7 @@ fn brakes(cycle: &Cycle<'_>) -> bool {
     cycle.envelope.brake.total(cycle.outputs) > DecelMs2Q11::ZERO
 }
 
-/// TRQ-1: the most that the accelerator asks for: the map, linear between its points 10 % apart, and its tolerance from
+/// TRQ-1a, TRQ-1b, TRQ-1c: the most that the accelerator asks for: the map, linear between its points 10 % apart, and its tolerance from
 /// where the pedal counts as pressed. Nothing where it is unknown or the brake pedal is, or may be, pressed too.
 fn by_pedal(cycle: &Cycle<'_>) -> u8 {
     let Some(travel) = accelerator(cycle).filter(|_| !both_pedals(cycle)) else { return 0 };

@@ -112,7 +112,7 @@ impl Cycle<'_> {
     pub(crate) fn switched(&self, position: EpbSwitch) -> bool {
         self.inputs.epb_switch.is(position)
     }
-    /// SELF-5: the safe state, after this cycle.
+    /// The safe state, after this cycle.
     pub(crate) fn safe_state(&self) -> bool {
         self.new.is_safe_state()
     }

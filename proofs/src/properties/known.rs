@@ -49,7 +49,7 @@ impl Cycle<'_> {
         }
     }
 
-    /// SELF-3: what this cycle adds to a timer that ends an obligation, and to one that leads to it.
+    /// What this cycle adds to a timer that ends an obligation, and to one that leads to it.
     pub(crate) fn elapsed(&self) -> (u32, u32) {
         (self.permitting().raw(), self.obliging().raw())
     }

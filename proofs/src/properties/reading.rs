@@ -5,7 +5,7 @@ use supervisor_core::{AngleDeciDeg, Config, Deviation, Inputs, Pedal250, Signal,
 
 use super::{Cycle, sits};
 
-/// SELF-3: what this cycle adds to the timers.
+/// What this cycle adds to the timers.
 pub(crate) fn ticks(cycle: &Cycle<'_>) -> Ticks {
     Ticks { permission: cycle.permitting(), safety: cycle.obliging(), fault: cycle.clock_fault() }
 }

@@ -313,7 +313,7 @@ pub fn self_10_loose_parking_brake(watch: &Watch<'_>) -> bool {
         && implies(released, watch.response.faults.contains(Faults::BYPASS))
 }
 
-/// RSP-1: the monitors report nothing beside what stands in the other properties.
+/// RSP-1i, RSP-1j, RSP-1l: the monitors report nothing beside what stands in the other properties.
 #[must_use]
 pub fn rsp_1_nothing_else_is_reported(watch: &Watch<'_>) -> bool {
     let brakes = Faults::BRAKE_RESPONSE.with(Faults::EBS_RED).with(Faults::BRAKE_OVERSHOOT);

@@ -30,7 +30,7 @@ pub fn farther_than(distance: u16, closing: u16, limit: u32) -> bool {
     u64::from(distance).saturating_mul(1000) > u64::from(limit).saturating_mul(u64::from(closing))
 }
 
-/// MIT-6c, MIT-8a: the deceleration that takes away the closing speed before the gap is used up, v²/(2·gap), in 1/2048 m/s² and
+/// MIT-6, MIT-8: the deceleration that takes away the closing speed before the gap is used up, v²/(2·gap), in 1/2048 m/s² and
 /// rounded up. Saturates, also without a gap; 0 when not closing.
 ///
 /// `closing` in cm/s, `gap` in cm.
@@ -74,7 +74,7 @@ fn divided_up(product: u32, by: u32) -> Option<u32> {
     }
 }
 
-/// SEAT-3b: from `here` towards `next`, `rest` of `step` of the way, rounded up. A `next` below `here` counts as `here`.
+/// SEAT-3: from `here` towards `next`, `rest` of `step` of the way, rounded up. A `next` below `here` counts as `here`.
 #[must_use]
 #[cfg_attr(creusot, check(terminates))]
 #[cfg_attr(creusot, ensures(result@ >= here@))]
@@ -90,7 +90,7 @@ pub fn between_up(here: u16, next: u16, rest: u16, step: u16) -> u16 {
     }
 }
 
-/// TRQ-1a: the same, rounded down.
+/// TRQ-1: the same, rounded down.
 #[must_use]
 #[cfg_attr(creusot, check(terminates))]
 #[cfg_attr(creusot, ensures(result@ >= here@))]
@@ -120,7 +120,7 @@ pub fn portion(per_second: u16, elapsed: u32, rest: u16) -> (u32, u16) {
     (thousandths / 1000, u16::try_from(thousandths % 1000).unwrap_or(0))
 }
 
-/// E2E-2d: what `per_second` takes away in `elapsed` ms, rounded up. Saturates.
+/// E2E-2: what `per_second` takes away in `elapsed` ms, rounded up. Saturates.
 #[must_use]
 #[cfg_attr(creusot, check(terminates))]
 #[cfg_attr(creusot, ensures(result@ < u16::MAX@ ==> result@ * 1000 >= per_second@ * elapsed@))]
@@ -157,7 +157,7 @@ pub fn share_down(value: u16, percent: u8) -> u16 {
     u16::try_from(u32::from(value).saturating_mul(u32::from(percent)) / 100).unwrap_or(u16::MAX)
 }
 
-/// RET-1a: the retarder's deceleration for each per cent, times its per cents, and the service brake beside it. Saturates.
+/// RET-1: the retarder's deceleration for each per cent, times its per cents, and the service brake beside it. Saturates.
 #[must_use]
 #[cfg_attr(creusot, check(terminates))]
 #[cfg_attr(creusot, ensures(service@ + each@ * percents@ <= u16::MAX@ ==> result@ == service@ + each@ * percents@))]
@@ -166,7 +166,7 @@ pub fn together(service: u16, each: u16, percents: u8) -> u16 {
     service.saturating_add(each.saturating_mul(u16::from(percents)))
 }
 
-/// RET-1a: the greatest per cents whose deceleration fits in `room`; all of them, if they cost nothing.
+/// RET-1: the greatest per cents whose deceleration fits in `room`; all of them, if they cost nothing.
 #[must_use]
 #[cfg_attr(creusot, check(terminates))]
 #[cfg_attr(creusot, ensures(result@ <= 100))]
