@@ -78,7 +78,9 @@ fn of(mistake: &Mistake, entry: &Entry) -> Option<Finding> {
     match &entry.outcome {
         Outcome::Caught { harness, .. } if mistake.harness.contains(harness) => None,
         Outcome::Caught { harness, .. } => Some(Finding::ByAnother(name, harness.clone())),
-        outcome => Some(Finding::NotCaught(name, outcome.clone())),
+        outcome @ (Outcome::Survived | Outcome::Undecided | Outcome::DoesNotCompile { .. }) => {
+            Some(Finding::NotCaught(name, outcome.clone()))
+        }
     }
 }
 

@@ -67,7 +67,7 @@ impl Copy {
         }
         self.put(Path::new("Cargo.toml"), self.manifest()?.as_bytes())?;
         for folder in FOLDERS {
-            self.sweep(&self.root.join(folder), &wanted)?;
+            sweep(&self.root.join(folder), &wanted)?;
         }
         Ok(())
     }
@@ -122,19 +122,6 @@ impl Copy {
         Ok(())
     }
 
-    /// Removes what is no longer in the original.
-    fn sweep(&self, folder: &Path, wanted: &HashSet<PathBuf>) -> Result<(), ProveError> {
-        for entry in fs::read_dir(folder).map_err(|error| failed(folder, error))? {
-            let path = entry.map_err(|error| failed(folder, error))?.path();
-            if path.is_dir() {
-                self.sweep(&path, wanted)?;
-            } else if !wanted.contains(&path) {
-                fs::remove_file(&path).map_err(|error| failed(&path, error))?;
-            }
-        }
-        Ok(())
-    }
-
     /// The manifest of the workspace with the members that are copied.
     fn manifest(&self) -> Result<String, ProveError> {
         let path = self.original.join("Cargo.toml");
@@ -148,6 +135,19 @@ impl Copy {
         members.retain(|member| member.as_str().is_some_and(copied));
         toml::to_string(&manifest).map_err(|error| form(error.to_string()))
     }
+}
+
+/// Removes what is no longer in the original.
+fn sweep(folder: &Path, wanted: &HashSet<PathBuf>) -> Result<(), ProveError> {
+    for entry in fs::read_dir(folder).map_err(|error| failed(folder, error))? {
+        let path = entry.map_err(|error| failed(folder, error))?.path();
+        if path.is_dir() {
+            sweep(&path, wanted)?;
+        } else if !wanted.contains(&path) {
+            fs::remove_file(&path).map_err(|error| failed(&path, error))?;
+        }
+    }
+    Ok(())
 }
 
 #[cfg(test)]

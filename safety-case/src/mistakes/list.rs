@@ -122,10 +122,10 @@ impl List {
     pub fn findings(&self, root: &Path, harnesses: &Harnesses) -> Vec<String> {
         let known: HashSet<&str> = harnesses.harness.iter().map(|harness| harness.name.as_str()).collect();
         let mut all = Vec::new();
-        let mut names = HashSet::new();
+        let mut seen = HashSet::new();
         for mistake in &self.mistake {
             let name = &mistake.name;
-            if !names.insert(name) {
+            if !seen.insert(name) {
                 all.push(format!("{name} stands twice"));
             }
             if mistake.harness.is_empty() != mistake.survives.is_some() {
