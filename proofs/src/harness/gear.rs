@@ -12,6 +12,7 @@ use crate::properties::gear::{
 /// GEAR-1, AUX-1, SELF-11c, SELF-11i.
 #[kani::proof]
 #[kani::unwind(17)]
+#[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent)]
 fn gear_1_and_auxiliaries() {
     let any = Any::new();
     let envelope = &any.decided.envelope;

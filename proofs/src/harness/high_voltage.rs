@@ -57,6 +57,9 @@ fn seat_8_high_voltage_only_by_restart() {
 /// owed goes out and waits for its guards, and what is in order passes.
 #[kani::proof]
 #[kani::unwind(17)]
+#[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent)]
+#[kani::stub(supervisor_core::kernel::portion, crate::harness::uninterpreted::portion)]
+#[kani::stub(supervisor_core::kernel::between_down, crate::harness::uninterpreted::between_down)]
 fn seat_7_high_voltage_exactly() {
     let any = Any::new();
     let outputs = any.contactors();

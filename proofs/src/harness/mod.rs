@@ -75,6 +75,7 @@ impl Any {
             faults: self.decided.faults,
             outputs,
             next: &self.next,
+            agreed: crate::properties::facts::agreed_speeds(&self.inputs, &self.config),
         }
     }
 }

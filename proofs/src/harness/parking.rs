@@ -55,6 +55,10 @@ fn seat_4_epb_applied_in_leave() {
 /// set, the chain, an apply that is not confirmed, the driver's switch, the safe state, exactly; what must pass.
 #[kani::proof]
 #[kani::unwind(17)]
+#[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent)]
+#[kani::stub(supervisor_core::kernel::share_up, crate::harness::uninterpreted::share_up)]
+#[kani::stub(supervisor_core::kernel::fallen, crate::harness::uninterpreted::fallen)]
+#[kani::stub(supervisor_core::kernel::between_up, crate::harness::uninterpreted::between_up)]
 fn seat_4_parking_exactly() {
     let any = Any::new();
     let envelope = &any.decided.envelope;

@@ -17,6 +17,8 @@ use crate::properties::warnings::warnings_obliged_exactly;
 /// VLC-2, VLC-3, BODY-1, RET-1: the electric limit, what is told, the lamps and the retarder.
 #[kani::proof]
 #[kani::unwind(17)]
+#[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent)]
+#[kani::stub(supervisor_core::kernel::fits, crate::harness::uninterpreted::fits)]
 fn vlc_2_bounds_of_the_road() {
     let any = Any::new();
     let envelope = &any.decided.envelope;
@@ -42,6 +44,7 @@ fn vlc_2_bounds_of_the_road() {
 #[kani::proof]
 #[kani::unwind(17)]
 #[kani::stub(supervisor_core::kernel::fallen, crate::harness::uninterpreted::fallen)]
+#[kani::stub(supervisor_core::kernel::together, crate::harness::uninterpreted::with_retarder)]
 fn e2e_2_lost_request_and_record() {
     let mut any = Any::new();
     let outputs = kani::any();

@@ -13,6 +13,10 @@ use crate::properties::rules::{
 /// RULE-1, RULE-6, CMD-5b: every refusal has a reason; unknown begins nothing, ends nothing, permits nothing; which of the two speeds counts.
 #[kani::proof]
 #[kani::unwind(17)]
+#[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent)]
+#[kani::stub(supervisor_core::kernel::portion, crate::harness::uninterpreted::portion)]
+#[kani::stub(supervisor_core::kernel::between_down, crate::harness::uninterpreted::between_down)]
+#[kani::stub(supervisor_core::kernel::between_up, crate::harness::uninterpreted::between_up)]
 fn rule_1_unknown() {
     let any = Any::new();
     let outputs: Outputs = kani::any();

@@ -94,6 +94,11 @@ fn seat_4_record_is_total_and_keeps_the_latch() {
 /// SELF-5d, SELF-5g: how the safe state brakes, and that steering fades.
 #[kani::proof]
 #[kani::unwind(17)]
+#[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent)]
+#[kani::stub(supervisor_core::kernel::portion, crate::harness::uninterpreted::portion)]
+#[kani::stub(supervisor_core::kernel::share_up, crate::harness::uninterpreted::share_up)]
+#[kani::stub(supervisor_core::kernel::fallen, crate::harness::uninterpreted::fallen)]
+#[kani::stub(supervisor_core::kernel::between_up, crate::harness::uninterpreted::between_up)]
 fn self_5_safe_state_brakes_and_fades() {
     let any = Any::new();
     let envelope = &any.decided.envelope;

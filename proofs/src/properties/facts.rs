@@ -3,7 +3,8 @@
 //! The properties are stated over these, never over what `decide` computed in between.
 
 use supervisor_core::{
-    Command, Contact, Deviation, EpbState, EpbSwitch, Faults, Key, Millis, Pedal250, Seat, SpeedKmhQ8, Timer, kernel,
+    Command, Config, Contact, Deviation, EpbState, EpbSwitch, Faults, Inputs, Key, Millis, Pedal250, Seat, SpeedKmhQ8,
+    Timer, kernel,
 };
 
 use super::Cycle;
@@ -34,6 +35,16 @@ pub(crate) fn asked<T>(command: Command<T>, timeout: Millis) -> Option<T> {
     }
 }
 
+/// RULE-6c: both speeds, the lower first, where they agree: within the absolute or the relative bound.
+pub(crate) fn agreed_speeds(inputs: &Inputs, config: &Config) -> Option<(SpeedKmhQ8, SpeedKmhQ8)> {
+    let (wheel, motor) = (inputs.wheel_speed.known()?, inputs.motor_speed.known()?);
+    let (low, high) = (wheel.min(motor), wheel.max(motor));
+    let difference = high.raw().abs_diff(low.raw());
+    let agree = difference <= config.speed_agree.raw()
+        || kernel::within_percent(difference, config.speed_agree_percent.raw(), high.raw());
+    agree.then_some((low, high))
+}
+
 impl Cycle<'_> {
     /// Time since the last cycle, over a wrap.
     pub(crate) fn passed(&self) -> Millis {
@@ -53,14 +64,9 @@ impl Cycle<'_> {
         if self.old.clock.started && !self.clock_fault() { self.passed() } else { self.config.cycle_nominal }
     }
 
-    /// RULE-6c: both speeds, the lower first, where they agree: within the absolute or the relative bound.
-    pub(crate) fn known_speeds(&self) -> Option<(SpeedKmhQ8, SpeedKmhQ8)> {
-        let (wheel, motor) = (self.inputs.wheel_speed.known()?, self.inputs.motor_speed.known()?);
-        let (low, high) = (wheel.min(motor), wheel.max(motor));
-        let difference = high.raw().abs_diff(low.raw());
-        let agree = difference <= self.config.speed_agree.raw()
-            || kernel::within_percent(difference, self.config.speed_agree_percent.raw(), high.raw());
-        agree.then_some((low, high))
+    /// RULE-6c: both speeds, the lower first, where they agree.
+    pub(crate) const fn known_speeds(&self) -> Option<(SpeedKmhQ8, SpeedKmhQ8)> {
+        self.agreed
     }
     /// Known, and the lower of the two below `limit` (RULE-6a).
     pub(crate) fn lower_below(&self, limit: SpeedKmhQ8) -> bool {

@@ -39,7 +39,7 @@ pub mod warnings;
 
 use supervisor_core::{
     Commands, Config, Decided, Envelope, EpbRequest, Evidence, Faults, Inputs, Millis, Outputs, Percent, Response,
-    Seat, State, Threat, Verdicts, decide, record, vet,
+    Seat, SpeedKmhQ8, State, Threat, Verdicts, decide, record, vet,
 };
 
 /// One cycle, seen from outside.
@@ -69,6 +69,8 @@ pub struct Cycle<'a> {
     pub outputs: &'a Outputs,
     /// State after `record`: what the next cycle begins with.
     pub next: &'a State,
+    /// RULE-6c: both speeds where they agree, the lower first. Read once for every property.
+    pub agreed: Option<(SpeedKmhQ8, SpeedKmhQ8)>,
 }
 
 /// A property by its name.
@@ -195,7 +197,7 @@ impl Witness {
 
     /// What the properties look at.
     #[must_use]
-    pub const fn cycle(&self) -> Cycle<'_> {
+    pub fn cycle(&self) -> Cycle<'_> {
         Cycle {
             old: &self.old,
             now: self.now,
@@ -209,6 +211,7 @@ impl Witness {
             faults: self.decided.faults,
             outputs: &self.outputs,
             next: &self.next,
+            agreed: facts::agreed_speeds(&self.inputs, &self.config),
         }
     }
 

@@ -44,7 +44,7 @@ pub(crate) fn both_pedals(cycle: &Cycle<'_>) -> bool {
 
 /// RULE-6c: both speeds where they agree, the lower one first.
 pub(crate) fn agreed_speeds(cycle: &Cycle<'_>) -> Option<(u16, u16)> {
-    agreed_speeds_of(cycle.inputs, cycle.config)
+    cycle.agreed_speeds()
 }
 
 /// The same of inputs alone.
