@@ -5,7 +5,7 @@ use arbitrary::Arbitrary;
 use libfuzzer_sys::fuzz_target;
 use supervisor::wire::{Frame, Message, Receiver};
 use supervisor::{Config, Millis, Record, ResetCause, Sealed, Supervisor, vet};
-use supervisor_proofs::properties::{self_2_sound, self_2_transparent};
+use supervisor_proofs::properties::vetting::{self_2_sound, self_2_transparent};
 
 /// One event on the bus.
 #[derive(Debug, Arbitrary)]
