@@ -17,6 +17,7 @@ use crate::properties::warnings::warnings_obliged_exactly;
 /// VLC-2, VLC-3, BODY-1, RET-1: the electric limit, what is told, the lamps and the retarder.
 #[kani::proof]
 #[kani::unwind(17)]
+#[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent)]
 fn vlc_2_bounds_of_the_road() {
     let any = Any::new();
     let envelope = &any.decided.envelope;
