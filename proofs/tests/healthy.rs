@@ -36,7 +36,7 @@ fn inputs(source: &mut Source<'_>) -> Result<Inputs> {
     let mut inputs = Inputs {
         seat: [known(Seat::Occupied); 2],
         wheel_speed: known(SpeedKmhQ8::new(speed)),
-        motor_speed: known(SpeedKmhQ8::new(speed)),
+        motor_speed: known(SpeedKmhQ8::new(speed + source.int_in_range(0..=400)?)),
         accelerator: [known(Pedal250::new(pedal)); 2],
         brake_pedal: [known(Pedal250::ZERO); 2],
         brake_switch: known(false),
@@ -100,7 +100,7 @@ fn old(source: &mut Source<'_>) -> Result<State> {
         hill: mostly(source, Timer::STOPPED)?,
         ..state.drive
     };
-    let weight = mostly(source, Percent::FULL)?;
+    let weight = if sound(source)? { mostly(source, Percent::FULL)? } else { Percent::ZERO };
     state.steering = SteeringState {
         weight,
         angle: supervisor_core::AngleDeciDeg::new(source.int_in_range(-400..=400)?),

@@ -4,7 +4,8 @@ use arbitrary::{Arbitrary, Result, Unstructured};
 use proptest::collection::vec;
 use proptest::prelude::{ProptestConfig, any, proptest};
 use supervisor_core::{
-    AngleDeciDeg, Config, DecelMs2Q11, Evidence, Follow, Inputs, Monitors, Outputs, SteeredAngle, Ticks,
+    AngleDeciDeg, Channels, Config, DecelMs2Q11, Evidence, Follow, Inputs, Monitors, Outputs, SteeredAngle, Ticks,
+    Timer,
 };
 use supervisor_proofs::properties::follow::{
     Pursuit, Turn, rsp_1_follow, rsp_1_follow_fails, rsp_1_steered, rsp_1_steered_fails,
@@ -18,7 +19,7 @@ const BYTES: usize = 4_096;
 fn broken(bytes: &[u8]) -> Result<Vec<&'static str>> {
     let mut source = Unstructured::new(bytes);
     let mut old = Monitors::arbitrary(&mut source)?;
-    let (inputs, outputs) = (Inputs::arbitrary(&mut source)?, Outputs::arbitrary(&mut source)?);
+    let (mut inputs, outputs) = (Inputs::arbitrary(&mut source)?, Outputs::arbitrary(&mut source)?);
     let (ticks, total) = (Ticks::arbitrary(&mut source)?, DecelMs2Q11::arbitrary(&mut source)?);
     let emergency = bool::arbitrary(&mut source)?;
     let config = if bool::arbitrary(&mut source)? { Config::DEFAULT } else { Config::arbitrary(&mut source)? };
@@ -28,6 +29,13 @@ fn broken(bytes: &[u8]) -> Result<Vec<&'static str>> {
         old.epb.asked = None;
         old.k4.seen = inputs.k4.known();
         old.weight = supervisor_core::Percent::FULL;
+    }
+    if bool::arbitrary(&mut source)? {
+        // A foreign message alone is a bypass: nothing else would be seen of one.
+        inputs.foreign = Channels::NONE;
+        inputs.second_sender = false;
+        old.loose = false;
+        old.steers = Timer::STOPPED;
     }
     let (new, response) = old.advance(&Evidence::gather(&inputs, &config), &inputs, ticks, &config);
     let next = new.record(&outputs, total, emergency);

@@ -17,6 +17,7 @@ use crate::properties::retarder::ret_1b_bound_exactly;
 #[kani::proof]
 #[kani::unwind(17)]
 #[kani::stub(supervisor_core::kernel::share_up, crate::harness::uninterpreted::share_up)]
+#[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent)]
 fn phb_1_cap_and_obligation_exactly() {
     let any = Any::new();
     let outputs = kani::any();

@@ -1,8 +1,7 @@
 //! Torque, gear and mode that go out, any command (TRQ, VLC-1, SELF-11a).
 
 use supervisor_core::{
-    ExitReason, Mode, Origin, Outputs, Percent, vet_drive, vet_gear, vet_mode, vet_steering, vet_target_speed,
-    vet_warnings,
+    ExitReason, Mode, Origin, Outputs, Percent, vet_drive, vet_gear, vet_mode, vet_target_speed, vet_warnings,
 };
 
 use super::Any;
@@ -13,10 +12,6 @@ use crate::properties::drive::{
 };
 use crate::properties::mode::{
     mode_1_end_is_shown, mode_1_follows_what_went_out, mode_1_set_is_new_evidence, trq_4_compares_with_what_was_asked,
-};
-use crate::properties::steering::{
-    cmd_3_steering_counts_from_our_last_output, str_1_angle_stays_in_range, str_2_asked_for_anew, str_2_end_is_shown,
-    str_2_takeover_ends,
 };
 
 impl Any {
@@ -37,9 +32,10 @@ impl Any {
 /// up to what is permitted; and what each requirement says of it, one by one.
 #[kani::proof]
 #[kani::unwind(17)]
+#[kani::stub(supervisor_core::kernel::together, crate::harness::uninterpreted::together)]
 #[kani::stub(supervisor_core::kernel::portion, crate::harness::uninterpreted::portion)]
 #[kani::stub(supervisor_core::kernel::between_down, crate::harness::uninterpreted::between_down)]
-#[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent)]
+#[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent_of_one)]
 fn self_11_torque_up_to_what_is_permitted() {
     let any = Any::new();
     let outputs = any.driving();
@@ -58,16 +54,16 @@ fn self_11_torque_up_to_what_is_permitted() {
     kani::cover!(torque == Percent::new(1) && origin == Origin::Adas, "1 % passes");
 }
 
-/// TRQ-5b, TRQ-5d, TRQ-5e, TRQ-6b, MODE-1a, MODE-1f, TRQ-2b, TRQ-4b, STR-1a, STR-2a, STR-2b, CMD-3f: what the next
-/// cycle counts from and remembers of drive, mode and steering.
+/// TRQ-5b, TRQ-5d, TRQ-5e, TRQ-6b, MODE-1a, MODE-1f, TRQ-2b, TRQ-4b, CMD-3f: what the next cycle counts from and remembers
+/// of the drive and its mode.
 #[kani::proof]
 #[kani::unwind(17)]
+#[kani::stub(supervisor_core::kernel::together, crate::harness::uninterpreted::together)]
 #[kani::stub(supervisor_core::kernel::portion, crate::harness::uninterpreted::portion)]
-#[kani::stub(supervisor_core::kernel::share_down, crate::harness::uninterpreted::share_down)]
-#[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent)]
-fn cmd_3_next_cycle_counts_from_the_output() {
+#[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent_of_one)]
+fn trq_5_next_cycle_counts_from_the_output() {
     let mut any = Any::new();
-    let outputs = Outputs { steering: vet_steering(&any.decided.envelope, any.commands.steering).0, ..any.driving() };
+    let outputs = any.driving();
     any.record(&outputs);
     let cycle = any.cycle(&outputs);
     assert!(trq_5_counts_from_our_last_output(&cycle));
@@ -77,18 +73,10 @@ fn cmd_3_next_cycle_counts_from_the_output() {
     assert!(mode_1_follows_what_went_out(&cycle));
     assert!(mode_1_end_is_shown(&cycle));
     assert!(trq_4_compares_with_what_was_asked(&cycle));
-    assert!(str_2_takeover_ends(&cycle));
-    assert!(str_2_asked_for_anew(&cycle));
-    assert!(str_2_end_is_shown(&cycle));
-    assert!(str_1_angle_stays_in_range(&cycle));
-    assert!(cmd_3_steering_counts_from_our_last_output(&cycle));
-    let (old, next) = (&any.old, &any.next);
-    kani::cover!(next.drive.hill.is_running() && !old.drive.hill.is_running(), "hill-hold begins");
-    kani::cover!(next.drive.torque > old.drive.torque, "torque rises");
-    kani::cover!(old.drive.release_needed && !next.drive.release_needed, "the accelerator is released");
-    kani::cover!(next.drive.mode == Mode::Automated && old.drive.mode == Mode::Manual, "the mode begins");
-    kani::cover!(next.drive.exit == ExitReason::CommandLost && outputs.warnings.notice_lamp, "an end is shown");
-    kani::cover!(!old.steering.barred && next.steering.barred, "the driver takes over the steering");
-    kani::cover!(old.steering.barred && !next.steering.barred, "it is asked for anew");
-    kani::cover!(next.steering.lost, "its command is lost");
+    let (old, next) = (&any.old.drive, &any.next.drive);
+    kani::cover!(next.hill.is_running() && !old.hill.is_running(), "hill-hold begins");
+    kani::cover!(next.torque > old.torque, "torque rises");
+    kani::cover!(old.release_needed && !next.release_needed, "the accelerator is released");
+    kani::cover!(next.mode == Mode::Automated && old.mode == Mode::Manual, "the mode begins");
+    kani::cover!(next.exit == ExitReason::CommandLost && outputs.warnings.notice_lamp, "an end is shown");
 }

@@ -11,8 +11,9 @@ use crate::properties::mode::{
 /// MODE-1, TRQ-3c, TRQ-4, SPD-1: when the mode begins, is suspended and ends, exactly; and the target speed with it.
 #[kani::proof]
 #[kani::unwind(17)]
+#[kani::stub(supervisor_core::kernel::together, crate::harness::uninterpreted::together)]
 #[kani::stub(supervisor_core::kernel::portion, crate::harness::uninterpreted::portion)]
-#[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent)]
+#[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent_of_one)]
 fn mode_1_begins_is_suspended_and_ends() {
     let any = Any::new();
     let outputs = any.driving();

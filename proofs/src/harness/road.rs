@@ -18,6 +18,7 @@ use crate::properties::warnings::warnings_obliged_exactly;
 #[kani::proof]
 #[kani::unwind(17)]
 #[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent)]
+#[kani::stub(supervisor_core::kernel::fits, crate::harness::uninterpreted::fits)]
 fn vlc_2_bounds_of_the_road() {
     let any = Any::new();
     let envelope = &any.decided.envelope;
@@ -43,6 +44,7 @@ fn vlc_2_bounds_of_the_road() {
 #[kani::proof]
 #[kani::unwind(17)]
 #[kani::stub(supervisor_core::kernel::fallen, crate::harness::uninterpreted::fallen)]
+#[kani::stub(supervisor_core::kernel::together, crate::harness::uninterpreted::with_retarder)]
 fn e2e_2_lost_request_and_record() {
     let mut any = Any::new();
     let outputs = kani::any();

@@ -1,11 +1,12 @@
 //! Automatic steering, any command (STR, SELF-5g, SELF-11e, E2E-2i).
 
-use supervisor_core::{Outputs, Percent, vet_steering};
+use supervisor_core::{Outputs, Percent, vet_steering, vet_warnings};
 
 use super::Any;
 use crate::properties::steering::{
-    str_1_angle_is_exactly_bounded, str_1_overlay_below_takeover, str_1_rate_and_bar_never_widened,
-    str_2_idle_commands_nothing, str_2_overlay_fades, str_2_permitted_exactly, str_2_weight_fades,
+    cmd_3_steering_counts_from_our_last_output, str_1_angle_is_exactly_bounded, str_1_angle_stays_in_range,
+    str_1_overlay_below_takeover, str_1_rate_and_bar_never_widened, str_2_asked_for_anew, str_2_end_is_shown,
+    str_2_idle_commands_nothing, str_2_overlay_fades, str_2_permitted_exactly, str_2_takeover_ends, str_2_weight_fades,
 };
 
 /// STR-1, STR-2, SELF-5g, E2E-2i: when it may act, how it begins and ends, and how far it turns meanwhile.
@@ -13,7 +14,7 @@ use crate::properties::steering::{
 #[kani::unwind(17)]
 #[kani::stub(supervisor_core::kernel::portion, crate::harness::uninterpreted::portion)]
 #[kani::stub(supervisor_core::kernel::share_down, crate::harness::uninterpreted::share_down)]
-#[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent)]
+#[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent_of_one)]
 fn str_1_steering_is_exactly_bounded() {
     let any = Any::new();
     let steering = vet_steering(&any.decided.envelope, any.commands.steering).0;
@@ -34,4 +35,30 @@ fn str_1_steering_is_exactly_bounded() {
     kani::cover!(acts && out.angle != any.old.steering.angle, "the wheel turns");
     kani::cover!(acts && any.inputs.wheel_speed.known().is_none(), "without a speed it fades out");
     kani::cover!(!out.enable && out.angle.raw() > 0, "idle fields pass");
+}
+
+/// STR-1a, STR-2a, STR-2b, CMD-3f: takeover, and what the next cycle counts from and remembers of the steering.
+#[kani::proof]
+#[kani::unwind(17)]
+#[kani::stub(supervisor_core::kernel::together, crate::harness::uninterpreted::together)]
+#[kani::stub(supervisor_core::kernel::portion, crate::harness::uninterpreted::portion)]
+#[kani::stub(supervisor_core::kernel::share_down, crate::harness::uninterpreted::share_down)]
+#[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent_of_one)]
+fn str_2_next_cycle_counts_from_the_output() {
+    let mut any = Any::new();
+    let envelope = &any.decided.envelope;
+    let steering = vet_steering(envelope, any.commands.steering).0;
+    let warnings = vet_warnings(envelope, any.commands.warnings).0;
+    let outputs = Outputs { steering, warnings, ..kani::any() };
+    any.record(&outputs);
+    let cycle = any.cycle(&outputs);
+    assert!(str_2_takeover_ends(&cycle));
+    assert!(str_2_asked_for_anew(&cycle));
+    assert!(str_2_end_is_shown(&cycle));
+    assert!(str_1_angle_stays_in_range(&cycle));
+    assert!(cmd_3_steering_counts_from_our_last_output(&cycle));
+    let (old, next) = (&any.old.steering, &any.next.steering);
+    kani::cover!(!old.barred && next.barred, "the driver takes over the steering");
+    kani::cover!(old.barred && !next.barred, "it is asked for anew");
+    kani::cover!(next.lost, "its command is lost");
 }

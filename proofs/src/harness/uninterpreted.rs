@@ -4,7 +4,7 @@
 //! there, and so for the real one; what the real one gives is the matter of its own contracts (`proofs/creusot`), or of a
 //! harness of its own.
 
-use core::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
+use core::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 
 use supervisor_core::word::Word;
 use supervisor_core::{ClosingCmS, DistanceCm, Follow, Millis};
@@ -58,6 +58,31 @@ impl<const A: usize> Calls<A> {
     }
 }
 
+/// The first call of a function that a harness calls again and again with the same arguments: other ones may give
+/// anything, which proves no less.
+struct First {
+    called: AtomicBool,
+    arguments: AtomicU64,
+    result: AtomicU64,
+}
+
+impl First {
+    const fn new() -> Self {
+        Self { called: AtomicBool::new(false), arguments: AtomicU64::new(0), result: AtomicU64::new(0) }
+    }
+
+    fn agree(&self, arguments: u64, result: u64) {
+        if self.called.load(Ordering::Relaxed) {
+            let same = self.arguments.load(Ordering::Relaxed) == arguments;
+            kani::assume(!same || self.result.load(Ordering::Relaxed) == result);
+        } else {
+            self.called.store(true, Ordering::Relaxed);
+            self.arguments.store(arguments, Ordering::Relaxed);
+            self.result.store(result, Ordering::Relaxed);
+        }
+    }
+}
+
 /// For [`kernel::portion`](supervisor_core::kernel::portion).
 pub(super) fn portion(per_second: u16, elapsed: u32, rest: u16) -> (u32, u16) {
     static SEEN: Calls<1> = Calls::new();
@@ -69,9 +94,26 @@ pub(super) fn portion(per_second: u16, elapsed: u32, rest: u16) -> (u32, u16) {
 
 /// For [`kernel::between_down`](supervisor_core::kernel::between_down).
 pub(super) fn between_down(here: u8, next: u8, rest: u8, step: u8) -> u8 {
-    static SEEN: Calls<1> = Calls::new();
+    static SEEN: First = First::new();
     let result: u8 = kani::any();
-    SEEN.agree([u64::from(u32::from_be_bytes([here, next, rest, step]))], [u64::from(result), 0]);
+    SEEN.agree(u64::from(u32::from_be_bytes([here, next, rest, step])), u64::from(result));
+    result
+}
+
+/// For [`kernel::together`](supervisor_core::kernel::together) of what goes out.
+pub(super) fn together(service: u16, each: u16, percents: u8) -> u16 {
+    static SEEN: First = First::new();
+    let result: u16 = kani::any();
+    SEEN.agree(u64::from(service) << 24 | u64::from(each) << 8 | u64::from(percents), u64::from(result));
+    result
+}
+
+/// For [`kernel::within_percent`](supervisor_core::kernel::within_percent) of the two speeds of one cycle.
+pub(super) fn within_percent_of_one(difference: u16, percent: u8, of: u16) -> bool {
+    static SEEN: First = First::new();
+    let result: bool = kani::any();
+    let arguments = u64::from(difference) << 24 | u64::from(percent) << 16 | u64::from(of);
+    SEEN.agree(arguments, u64::from(result));
     result
 }
 
@@ -175,5 +217,22 @@ pub(super) fn fallen(per_second: u16, elapsed: u32) -> u16 {
     static SEEN: Calls<1> = Calls::new();
     let result: u16 = kani::any();
     SEEN.agree([u64::from(per_second) << 32 | u64::from(elapsed)], [u64::from(result), 0]);
+    result
+}
+
+/// For [`kernel::together`](supervisor_core::kernel::together).
+pub(super) fn with_retarder(service: u16, each: u16, percents: u8) -> u16 {
+    static SEEN: Calls<1> = Calls::new();
+    let result: u16 = kani::any();
+    let arguments = u64::from(service) << 32 | u64::from(each) << 16 | u64::from(percents);
+    SEEN.agree([arguments], [u64::from(result), 0]);
+    result
+}
+
+/// For [`kernel::fits`](supervisor_core::kernel::fits).
+pub(super) fn fits(room: u16, each: u16) -> u8 {
+    static SEEN: Calls<1> = Calls::new();
+    let result: u8 = kani::any();
+    SEEN.agree([u64::from(room) << 16 | u64::from(each)], [u64::from(result), 0]);
     result
 }
