@@ -52,25 +52,16 @@ fn seat_4_epb_applied_in_leave() {
 }
 
 /// SEAT-3f, SEAT-4, SEAT-5d, SEAT-11d, SELF-9d, EPB-1, SELF-5e, SELF-11d: when apply is owed and what may apply, when the latch is
-/// set, the chain, an apply that is not confirmed, the driver's switch, the safe state, exactly; what must pass.
+/// set, the chain, the driver's switch, the safe state, exactly; what must pass.
 #[kani::proof]
 #[kani::unwind(17)]
 #[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent)]
-#[kani::stub(supervisor_core::kernel::share_up, crate::harness::uninterpreted::share_up)]
-#[kani::stub(supervisor_core::kernel::fallen, crate::harness::uninterpreted::fallen)]
-#[kani::stub(supervisor_core::kernel::between_up, crate::harness::uninterpreted::between_up)]
 fn seat_4_parking_exactly() {
     let any = Any::new();
-    let envelope = &any.decided.envelope;
-    let outputs = Outputs {
-        gear: vet_gear(envelope, any.commands.gear).0,
-        brake: vet_brake(envelope, any.commands.brake).0,
-        ..any.parking()
-    };
+    let outputs = any.parking();
     let cycle = any.cycle(&outputs);
     assert!(seat_4_apply_exactly(&cycle));
     assert!(seat_4_latch_exactly(&cycle));
-    assert!(seat_4c_unconfirmed_is_held_and_reported(&cycle));
     assert!(seat_3_speedless_leave_is_parked(&cycle));
     assert!(seat_5_pedal_chain_exactly(&cycle));
     assert!(self_9_boot_settles_exactly(&cycle));
@@ -78,19 +69,38 @@ fn seat_4_parking_exactly() {
     assert!(epb_1_switch_goes_first(&cycle));
     assert!(self_5_parking_in_the_safe_state(&cycle));
     assert!(self_11_parking_passes(&cycle));
-    let (old, new) = (&any.old, &any.decided.state);
+    let (old, new, bound) = (&any.old, &any.decided.state, &any.decided.envelope.epb);
     kani::cover!(cycle.speedless() && outputs.epb.request == EpbRequest::Apply, "applied for want of a speed");
     kani::cover!(cycle.apply_owed() && !new.seat.leave, "applied again after leave");
     kani::cover!(!old.parking.by_leave && new.parking.by_leave && !new.seat.leave, "the boot rule parks");
     kani::cover!(new.parking.pedal == PedalChain::PressedAnew, "pressed anew");
     kani::cover!(new.boot.pending == Pending::Clean, "boot still waits");
-    let overdue = new.parking.unconfirmed.reached(any.config.epb_confirm);
-    kani::cover!(overdue && new.seat.leave, "overdue in leave");
-    kani::cover!(!overdue && outputs.gear == GearRequest::Neutral, "neutral passes");
     let apply = outputs.epb.request == EpbRequest::Apply;
     let fast = cycle.lower_at_least(any.config.epb_speed);
-    kani::cover!(apply && fast && envelope.epb.obliged == Some(Reason::DriverSwitch), "the switch, rolling");
-    kani::cover!(apply && envelope.epb.obliged.is_none(), "a request applies");
+    kani::cover!(apply && fast && bound.obliged == Some(Reason::DriverSwitch), "the switch, rolling");
+    kani::cover!(apply && bound.obliged.is_none(), "a request applies");
     kani::cover!(apply && cycle.safe_state() && cycle.known_speeds().is_none(), "the safe state, last known slow");
     kani::cover!(outputs.epb.request == EpbRequest::Release && new.parking.by_leave, "a release passes after leave");
+}
+
+/// SEAT-4c: an apply that is not confirmed in time is reported, and brake and gear are held.
+#[kani::proof]
+#[kani::unwind(17)]
+#[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent)]
+#[kani::stub(supervisor_core::kernel::share_up, crate::harness::uninterpreted::share_up)]
+#[kani::stub(supervisor_core::kernel::fallen, crate::harness::uninterpreted::fallen)]
+#[kani::stub(supervisor_core::kernel::between_up, crate::harness::uninterpreted::between_up)]
+fn seat_4c_unconfirmed_is_held() {
+    let any = Any::new();
+    let envelope = &any.decided.envelope;
+    let outputs = Outputs {
+        gear: vet_gear(envelope, any.commands.gear).0,
+        brake: vet_brake(envelope, any.commands.brake).0,
+        ..kani::any()
+    };
+    let cycle = any.cycle(&outputs);
+    assert!(seat_4c_unconfirmed_is_held_and_reported(&cycle));
+    let overdue = any.decided.state.parking.unconfirmed.reached(any.config.epb_confirm);
+    kani::cover!(overdue && any.decided.state.seat.leave, "overdue in leave");
+    kani::cover!(!overdue && outputs.gear == GearRequest::Neutral, "neutral passes");
 }

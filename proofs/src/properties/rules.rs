@@ -82,7 +82,7 @@ pub fn rule_1_unknown_permits_nothing(cycle: &Cycle<'_>) -> bool {
         )
 }
 
-/// RULE-1d: what has begun is not ended by an unknown input: leave without both sensors, the demand of leave without a speed,
+/// RULE-1d, SEAT-3e: what has begun is not ended by an unknown input: leave without both sensors, the demand of leave without a speed,
 /// *parked by leave*, the committed shutdown, level 3 without evidence of standstill (but for MIT-7c, which holds the bus instead),
 /// latched faults without their evidence.
 #[must_use]
@@ -93,7 +93,7 @@ pub fn rule_1_unknown_ends_nothing(cycle: &Cycle<'_>) -> bool {
     let committed = matches!(old.high_voltage.stage, Stage::OpeningK4 | Stage::OpeningK1);
     let braked = inputs.epb.is(EpbState::Applied) || cycle.brake_pressed();
     implies(no_seat && old.seat.leave, new.seat.leave)
-        && implies(no_speed && new.seat.leave, new.brake.leave >= old.brake.leave)
+        && implies(no_speed && new.seat.leave, new.brake.leave >= old.brake.leave.max(cycle.config.leave_hold))
         && implies(no_speed, new.parking.slow == old.parking.slow && new.brake.slow == old.brake.slow)
         && implies(old.parking.by_leave, new.parking.by_leave)
         && implies(committed, new.high_voltage.stage != Stage::Up)
@@ -104,7 +104,7 @@ pub fn rule_1_unknown_ends_nothing(cycle: &Cycle<'_>) -> bool {
         )
 }
 
-/// RULE-6a, RULE-6b: obligations take the lower speed, interlocks the higher: the parking brake is applied and the bus held by the
+/// RULE-6a, RULE-6b, SEAT-3d: obligations take the lower speed, interlocks the higher: the parking brake is applied and the bus held by the
 /// lower one, standstill and a requested apply need the higher one.
 #[must_use]
 pub fn rule_6_speeds(cycle: &Cycle<'_>) -> bool {
