@@ -84,12 +84,17 @@ fn assessment() -> impl Strategy<Value = Assessment> {
     let lone = (radar(), class()).prop_map(|(object, class)| radar_object(&object, class, &Config::DEFAULT));
     // Equal severity with different objects: the values decide.
     let twin = (lone, option::of((0..3_u16, 0..3_i16, 0..3_i16)), any::<bool>()).prop_map(|(lone, place, none)| {
-        let object = place.map(|(distance, offset, closing)| Object {
-            distance: DistanceCm::new(distance),
-            offset: OffsetCm::new(offset),
-            closing: ClosingCmS::new(closing),
+        let (level, required) = (if none { Level::None } else { lone.level }, lone.required);
+        let worst = place.map(|(distance, offset, closing)| Worst {
+            level,
+            required,
+            object: Object {
+                distance: DistanceCm::new(distance),
+                offset: OffsetCm::new(offset),
+                closing: ClosingCmS::new(closing),
+            },
         });
-        Assessment { object, level: if none { Level::None } else { lone.level }, required: lone.required, ..lone }
+        Assessment { worst, level, ..lone }
     });
     prop_oneof![several, twin]
 }

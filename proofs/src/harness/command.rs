@@ -2,9 +2,9 @@
 
 use supervisor_core::{
     AdsState, BrakeMode, Channel, Command, Commands, ContactorRequest, DecelMs2Q11, DriveTorque, DrivingMode, Envelope,
-    EpbMode, EpbRequest, GearRequest, Kind, Millis, Origin, Outputs, Percent, Priority, Reason, Rejection,
-    RetarderMode, ServiceBrake, Steering, Timeouts, Wiper, vet_auxiliaries, vet_body, vet_brake, vet_contactors,
-    vet_drive, vet_epb, vet_gear, vet_mode, vet_retarder, vet_steering, vet_target_speed, vet_warnings,
+    EpbMode, EpbRequest, GearRequest, Kind, Millis, Origin, Outputs, Percent, Priority, Rejection, RetarderMode,
+    ServiceBrake, Steering, Timeouts, Wiper, vet_auxiliaries, vet_body, vet_brake, vet_contactors, vet_drive, vet_epb,
+    vet_gear, vet_mode, vet_retarder, vet_steering, vet_target_speed, vet_warnings,
 };
 
 use crate::properties::command::{
@@ -105,7 +105,7 @@ fn cmd_1_closed_world() {
 }
 
 /// CMD-3b, CMD-3c, CMD-5a, CMD-5b: on every channel the verdict says what happened, with a reason for all but pass; blocked is
-/// neutral. Of the contactors the one that is refused holds; the other one may still go out under the same verdict.
+/// neutral.
 #[kani::proof]
 fn cmd_5_verdicts_are_true() {
     let (envelope, commands): (Envelope, Commands) = (kani::any(), kani::any());
@@ -132,11 +132,5 @@ fn cmd_5_verdicts_are_true() {
     told!(warnings, ms200, vet_warnings(&envelope, commands.warnings));
     told!(body, ms200, vet_body(&envelope, braking, commands.body));
     told!(mode, ms200, vet_mode(&envelope, commands.mode));
-    let (out, verdict) = vet_contactors(&envelope, torque, commands.contactors);
-    let blocked = verdict.kind == Kind::Block;
-    let holds = out.k4 == ContactorRequest::Hold || out.k1 == ContactorRequest::Hold;
-    assert!(!blocked || holds);
-    let unchanged = commands.contactors.usable(ms100).is_ok_and(|wanted| wanted == out);
-    assert!(verdict.passed() == unchanged && (verdict.reason == Reason::Within) == unchanged);
-    kani::cover!(blocked, "a contactor is refused");
+    told!(contactors, ms100, vet_contactors(&envelope, torque, commands.contactors));
 }

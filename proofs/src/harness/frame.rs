@@ -77,54 +77,72 @@ macro_rules! each {
 
 /// E2E-1, CMD-7: the commands of J1939.
 #[kani::proof]
+#[kani::unwind(17)]
+#[kani::stub(supervisor_wire::Protection::open, crate::harness::uninterpreted::open)]
 fn cmd_1_commands_of_j1939() {
     each!(DriveTorque, ServiceBrake, Retarder);
 }
 
 /// E2E-1, CMD-7: our own commands.
 #[kani::proof]
+#[kani::unwind(17)]
+#[kani::stub(supervisor_wire::Protection::open, crate::harness::uninterpreted::open)]
 fn cmd_1_commands_of_ours() {
     each!(TargetSpeed, BrakeSplit, Gear, ParkingBrake);
 }
 
 /// E2E-1, CMD-7: the commands of steering, and the mode.
 #[kani::proof]
+#[kani::unwind(17)]
+#[kani::stub(supervisor_wire::Protection::open, crate::harness::uninterpreted::open)]
 fn cmd_1_commands_of_steering() {
     each!(SteeringAngle, SteeringTorque, Mode);
 }
 
 /// E2E-1, CMD-7: contactors and what is on and off.
 #[kani::proof]
+#[kani::unwind(17)]
+#[kani::stub(supervisor_wire::Protection::open, crate::harness::uninterpreted::open)]
 fn cmd_1_commands_of_switches() {
     each!(Contactors, Auxiliaries, Warnings, Body);
 }
 
 /// E2E-1: inputs of driver and seat.
 #[kani::proof]
+#[kani::unwind(17)]
+#[kani::stub(supervisor_wire::Protection::open, crate::harness::uninterpreted::open)]
 fn e2e_1_inputs_of_the_driver() {
     each!(Accelerator, Seat1, Seat2, BrakePedal1, BrakePedal2, DriverControls);
 }
 
 /// E2E-1: inputs of the actuators.
 #[kani::proof]
+#[kani::unwind(17)]
+#[kani::stub(supervisor_wire::Protection::open, crate::harness::uninterpreted::open)]
 fn e2e_1_inputs_of_actuators() {
     each!(GearStatus, DriveStatus, BrakeStatus, SteeringStatus, ParkingBrakeStatus);
 }
 
 /// E2E-1: the other inputs.
 #[kani::proof]
+#[kani::unwind(17)]
+#[kani::stub(supervisor_wire::Protection::open, crate::harness::uninterpreted::open)]
 fn e2e_1_other_inputs() {
     each!(HighVoltageStatus, AdsStatus, ElectricBrake, VehicleMass);
 }
 
 /// E2E-1: parts of object lists.
 #[kani::proof]
+#[kani::unwind(17)]
+#[kani::stub(supervisor_wire::Protection::open, crate::harness::uninterpreted::open)]
 fn e2e_1_objects() {
     each!(RadarPosition, RadarMotion, CameraObject, CameraCorner, CameraSize);
 }
 
 /// E2E-1: what the supervisor says of itself, at a receiver that listens to it.
 #[kani::proof]
+#[kani::unwind(17)]
+#[kani::stub(supervisor_wire::Protection::open, crate::harness::uninterpreted::open)]
 fn e2e_1_status() {
     each!(SupervisorStatus, SupervisorFaults);
 }
@@ -146,6 +164,8 @@ fn e2e_1_bare() {
 
 /// E2E-1i, CMD-1c: our own signals, by the codings that every row shares.
 #[kani::proof]
+#[kani::unwind(17)]
+#[kani::stub(supervisor_wire::Protection::open, crate::harness::uninterpreted::open)]
 fn e2e_1_our_own_signals() {
     for message in [Message::Seat1, Message::DriveStatus, Message::SteeringStatus] {
         let arrival = any_arrival(message, kani::any());
@@ -156,6 +176,8 @@ fn e2e_1_our_own_signals() {
 
 /// CMD-2, E2E-1g, E2E-1h: how long a command counts.
 #[kani::proof]
+#[kani::unwind(17)]
+#[kani::stub(supervisor_wire::Protection::open, crate::harness::uninterpreted::open)]
 fn cmd_2_held_up_to_its_timeout() {
     for message in [Message::DriveTorque, Message::Retarder, Message::ServiceBrake, Message::Gear] {
         let (link, timing): (Link, Timing) = (kani::any(), kani::any());

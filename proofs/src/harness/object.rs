@@ -100,8 +100,8 @@ fn mit_6_merge() {
     let (one, two, three): (Assessment, Assessment, Assessment) = (kani::any(), kani::any(), kani::any());
     assert!(mit_6a_most_severe_decides(one, two));
     assert!(mit_6a_order_does_not_matter(one, two, three));
-    let nearer = one.object.zip(two.object).is_some_and(|(near, far)| near.distance < far.distance);
-    kani::cover!(nearer && merge(one, two).object == two.object, "the farther one decides");
+    let nearer = one.worst.zip(two.worst).is_some_and(|(near, far)| near.object.distance < far.object.distance);
+    kani::cover!(nearer && merge(one, two).worst == two.worst, "the farther one decides");
 }
 
 /// RULE-1, FCW-1b: the threat of anything merged.

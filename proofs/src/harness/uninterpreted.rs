@@ -8,6 +8,7 @@ use core::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 
 use supervisor_core::word::Word;
 use supervisor_core::{ClosingCmS, DistanceCm, Follow, Millis};
+use supervisor_wire::{Fault, Protection};
 
 /// More calls than any harness makes; one more is a failed proof, not a silent one.
 const CALLS: usize = 16;
@@ -234,5 +235,24 @@ pub(super) fn fits(room: u16, each: u16) -> u8 {
     static SEEN: Calls<1> = Calls::new();
     let result: u8 = kani::any();
     SEEN.agree([u64::from(room) << 16 | u64::from(each)], [u64::from(result), 0]);
+    result
+}
+
+/// For [`Protection::open`]: of which it is also known, proved by `e2e_1_profile_11` and `e2e_1_j1939`, that a counter is one of
+/// the protection's, and that a bare message has none.
+pub(super) fn open(of: Protection, id: u32, payload: u64) -> Result<Option<u8>, Fault> {
+    static SEEN: Calls<2> = Calls::new();
+    if of == Protection::Bare {
+        return Ok(None);
+    }
+    let (counter, no_counter, checksum): (u8, bool, bool) = kani::any();
+    let result = match (no_counter, checksum) {
+        (true, _) => Err(Fault::NoCounter),
+        (false, true) => Err(Fault::Checksum),
+        (false, false) => Ok(Some(counter)),
+    };
+    kani::assume(counter < of.counts());
+    let told = u64::from(counter) << 2 | u64::from(no_counter) << 1 | u64::from(checksum);
+    SEEN.agree([u64::from(of.counts()) << 32 | u64::from(id), payload], [told, 0]);
     result
 }

@@ -70,13 +70,9 @@ pub fn e2e_1b_intact_exactly(protection: Protection, id: u32, payload: u64) -> b
 #[must_use]
 pub fn e2e_1b_sealed_is_intact(protection: Protection, id: u32, payload: u64, counter: u8) -> bool {
     let sealed = protection.seal(id, payload, counter);
-    let (own, expected) = match protection {
-        Protection::Profile11 => (0x0FFF, Some(counter)),
-        Protection::Tsc1 | Protection::Xbr => (0xFF << 56, Some(counter)),
-        Protection::Bare => (0, None),
-    };
+    let expected = if protection == Protection::Bare { None } else { Some(counter) };
     implies(counter < protection.counts(), protection.open(id, sealed) == Ok(expected))
-        && (sealed ^ payload) & !own == 0
+        && (sealed ^ payload) & !protected_by(protection) == 0
 }
 
 /// E2E-1b: one flipped bit of an intact frame is found, whichever it is. (Of TSC1 alone J1939 lets some pass.)
@@ -133,17 +129,23 @@ impl Arrival {
     }
 }
 
-/// CMD-1b, CMD-1c, E2E-1b, CMD-7c: a protected frame is taken only if writing what was read gives the same frame, to the bit: no field out of
-/// its range, no code that is not in its table, no stray bit, the right check field.
+/// The bits of a payload that counter and check field take.
+const fn protected_by(protection: Protection) -> u64 {
+    match protection {
+        Protection::Profile11 => 0x0FFF,
+        Protection::Tsc1 | Protection::Xbr => 0xFF << 56,
+        Protection::Bare => 0,
+    }
+}
+
+/// CMD-1b, CMD-1c, CMD-7c: a protected frame is taken only if writing what was read gives the same payload, to the bit: no field out of
+/// its range, no code that is not in its table, no stray bit. Counter and check field are the next property's.
 #[must_use]
 pub fn cmd_1_taken_means_encoded_the_same(arrival: &Arrival) -> bool {
-    let Frame { id, length, .. } = arrival.frame;
-    let payload = arrival.frame.payload();
-    let same = match fields(arrival.protection(), payload) {
-        None => true,
-        Some((counter, _)) => arrival.protection().seal(id, write(arrival.message, &arrival.new), counter) == payload,
-    };
-    implies(arrival.result.is_ok(), length == 8 && same)
+    let (protection, payload) = (arrival.protection(), arrival.frame.payload());
+    let written = write(arrival.message, &arrival.new);
+    let same = protection == Protection::Bare || (written ^ payload) & !protected_by(protection) == 0;
+    implies(arrival.result.is_ok(), arrival.frame.length == 8 && same)
 }
 
 /// E2E-1c, E2E-1e: what becomes of a frame, exactly: refused for its length, its check field, its content; then by its counter: after a gap an

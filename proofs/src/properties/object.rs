@@ -2,13 +2,12 @@
 //! several (TTC, MIT, FUS-3, FCW, PCW). With the merge, one object and the empty list stand for every list: a list is
 //! folded by it.
 
-use std::cmp::Ordering;
-
 use supervisor_core::{
     Alert, Closing, ClosingCmS, Config, DecelMs2Q11, DistanceCm, Level, Millis, Object, OffsetCm, Threat, kernel,
 };
 use supervisor_perceive::{
-    Assessment, CameraObject, Class, RadarObject, camera_object, merge, moved, radar_object, reached, reached_or_equal,
+    Assessment, CameraObject, Class, RadarObject, Worst, camera_object, merge, moved, radar_object, reached,
+    reached_or_equal,
 };
 
 use super::implies;
@@ -120,18 +119,18 @@ pub fn mit_1_level_is_that_of_the_time(sight: &Sight<'_>) -> bool {
 /// FUS-3c: only what is valid obliges anything, and everything that is valid is named as it is now.
 #[must_use]
 pub fn fus_3c_only_a_valid_obstacle_obliges(sight: &Sight<'_>) -> bool {
-    let Assessment { level, required, disagreement, object, .. } = sight.assessed;
+    let Assessment { level, required, disagreement, worst, .. } = sight.assessed;
     let RadarObject { offset, closing, .. } = *sight.object;
-    let named = Object { distance: sight.distance, offset, closing };
+    let named = Worst { level, required, object: Object { distance: sight.distance, offset, closing } };
     let silent = level == Level::None && required == DecelMs2Q11::ZERO && !disagreement;
-    if sight.valid() { object == Some(named) } else { silent && object.is_none() }
+    if sight.valid() { worst == Some(named) } else { silent && worst.is_none() }
 }
 
 /// FUS-3e: one corridor, its edge included, for the obstacle that is valid and for the object that is closing.
 #[must_use]
 pub fn fus_3e_one_corridor(sight: &Sight<'_>) -> bool {
     sight.assessed.closing == (sight.in_corridor() && sight.closes())
-        && sight.assessed.object.is_some() == (sight.in_corridor() && sight.certain())
+        && sight.assessed.worst.is_some() == (sight.in_corridor() && sight.certain())
 }
 
 /// FCW-1a, FCW-1b: begins with an object beside less than 1.8 m and T < 4.0 s, may end beyond 4.5 s; a pedestrian is none.
@@ -275,9 +274,10 @@ pub fn fus_3d_camera_only_permits(object: &CameraObject, config: &Config) -> boo
     rest == Assessment::NOTHING && (mitigable, emergency) == permitted(distance, object.closing, config)
 }
 
-/// How severe the object of an assessment is.
-fn severity(of: &Assessment) -> (bool, Level, DecelMs2Q11) {
-    (of.object.is_some(), of.level, of.required)
+/// How severe an obstacle is; of equally severe ones the nearer, then the faster, then the one farther left.
+fn severity(of: Worst) -> (Level, DecelMs2Q11, i32, ClosingCmS, OffsetCm) {
+    let Worst { level, required, object } = of;
+    (level, required, -object.distance.wide(), object.closing, object.offset)
 }
 
 /// MIT-6a: the merge obliges and permits what either does, and names the object of the more severe, not the nearer one.
@@ -294,33 +294,20 @@ pub fn mit_6a_most_severe_decides(first: Assessment, second: Assessment) -> bool
         (both.pedestrian_holds, first.pedestrian_holds, second.pedestrian_holds),
         (both.disagreement, first.disagreement, second.disagreement),
     ];
-    let named = match severity(&first).cmp(&severity(&second)) {
-        Ordering::Greater => both.object == first.object,
-        Ordering::Less => both.object == second.object,
-        // Equally severe: the nearer one, then the faster, then the one farther left; equal ones are the same.
-        Ordering::Equal => {
-            let place =
-                |of: &Assessment| of.object.map(|object| (-object.distance.wide(), object.closing, object.offset));
-            let [one, other, chosen] = [&first, &second, &both].map(place);
-            chosen == one.max(other)
-        }
-    };
+    let [one, other, chosen] = [first, second, both].map(|of| of.worst.map(severity));
     both.level == first.level.max(second.level)
         && both.required == first.required.max(second.required)
         && either.iter().all(|(both, one, other)| *both == (*one || *other))
-        && named
+        && chosen == one.max(other)
 }
 
-/// MIT-6a: no order and no repetition in a list changes what it obliges and permits.
-///
-/// Of three, the object that is *named* is left out: see [`mit_6a_most_severe_decides`] for two.
+/// MIT-6a: no order and no repetition in a list changes what it obliges, permits and names.
 #[must_use]
 pub fn mit_6a_order_does_not_matter(one: Assessment, two: Assessment, three: Assessment) -> bool {
-    let unnamed = |of: Assessment| Assessment { object: None, ..of };
     merge(one, two) == merge(two, one)
         && merge(one, one) == one
         && merge(Assessment::NOTHING, one) == one
-        && unnamed(merge(merge(one, two), three)) == unnamed(merge(one, merge(two, three)))
+        && merge(merge(one, two), three) == merge(one, merge(two, three))
 }
 
 /// RULE-1a, FCW-1b, PCW-1b, MIT-6a: what is merged is what the threat says; unknown perception ends no warning and knows of nothing that it is
@@ -339,7 +326,7 @@ pub fn fcw_1_threat_says_what_was_merged(merged: Assessment, known: bool) -> boo
         mitigable: merged.mitigable,
         emergency: merged.emergency,
         disagreement: merged.disagreement,
-        object: merged.object,
+        object: merged.worst.map(|worst| worst.object),
         ..Threat::UNKNOWN
     };
     kept == expected

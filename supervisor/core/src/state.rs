@@ -74,7 +74,9 @@ impl State {
     /// SELF-5b: the state after retained words that did not decode: any other boot, in the safe state.
     #[must_use]
     pub fn corrupted() -> Self {
-        Self { latches: Latches::with(Faults::STATE), ..Self::boot(ResetCause::Other, None) }
+        let fresh = Self::boot(ResetCause::Other, None);
+        let drive = Drive { release_needed: true, ..fresh.drive };
+        Self { latches: Latches::with(Faults::STATE), drive, ..fresh }
     }
 
     /// SELF-5c: the same, with what the whole copy of a damaged image still obliges; it permits nothing.
@@ -92,7 +94,7 @@ impl State {
                 key: fresh.high_voltage.key,
                 ..old.high_voltage
             },
-            drive: Drive { release_needed: true, ..fresh.drive },
+            drive: fresh.drive,
             flow: fresh.flow,
             ..old
         }

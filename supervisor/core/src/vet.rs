@@ -335,7 +335,12 @@ pub fn vet_contactors(envelope: &Envelope, torque: Percent, command: Command<Con
     let (k4_out, k4_cause) = contactor(k4, wanted.k4);
     let (k1_out, k1_cause) = contactor(envelope.k1, wanted.k1);
     let out = Contactors { k4: k4_out, k1: k1_out };
-    (out, judge(usable, &out, &Contactors::NEUTRAL, Verdict::PASS, k4_cause.or(k1_cause)))
+    // CMD-3b: the vector is blocked only if neither moves.
+    let cause = k4_cause.or(k1_cause).map(|cause| match cause.kind {
+        Kind::Block if out != Contactors::NEUTRAL => Verdict { kind: Kind::Limit, ..cause },
+        _ => cause,
+    });
+    (out, judge(usable, &out, &Contactors::NEUTRAL, Verdict::PASS, cause))
 }
 
 fn contactor(bound: ContactorBound, wanted: ContactorRequest) -> (ContactorRequest, Option<Verdict>) {

@@ -1,6 +1,6 @@
 //! One object: time to collision, second opinion, and what it may oblige or permit.
 
-use core::cmp::{Ordering, Reverse};
+use core::cmp::Reverse;
 
 use supervisor_core::kernel::{self, farther_than, nearer_than};
 use supervisor_core::{ClosingCmS, Config, DecelMs2Q11, DistanceCm, Level, Millis, Object, OffsetCm};
@@ -33,8 +33,21 @@ pub struct Assessment {
     pub pedestrian_holds: bool,
     /// Time to collision and second opinion disagree.
     pub disagreement: bool,
-    /// The deciding object.
-    pub object: Option<Object>,
+    /// The most severe valid obstacle.
+    pub worst: Option<Worst>,
+}
+
+/// An obstacle, and how severe it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(kani, derive(kani::Arbitrary))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
+pub struct Worst {
+    /// Level it obliges.
+    pub level: Level,
+    /// Deceleration it requires.
+    pub required: DecelMs2Q11,
+    /// Which.
+    pub object: Object,
 }
 
 impl Assessment {
@@ -50,7 +63,7 @@ impl Assessment {
         pedestrian_begins: false,
         pedestrian_holds: false,
         disagreement: false,
-        object: None,
+        worst: None,
     };
 }
 
@@ -129,11 +142,12 @@ pub fn radar_object(object: &RadarObject, class: Option<Class>, config: &Config)
     let [mild, ..] = config.level_decel.0;
     let disagreement = valid
         && ((required >= config.severe_decel && level == Level::None) || (level == Level::Three && required < mild));
+    let required = if valid { required } else { DecelMs2Q11::ZERO };
     Assessment {
         level,
         // MIT-4: an object that is not certain begins no level, but is not known to be gone either.
         closing: in_corridor && closing > ClosingCmS::ZERO,
-        required: if valid { required } else { DecelMs2Q11::ZERO },
+        required,
         mitigable,
         emergency,
         forward_begins: forward && reached(distance, closing, forward_on),
@@ -141,7 +155,7 @@ pub fn radar_object(object: &RadarObject, class: Option<Class>, config: &Config)
         pedestrian_begins: pedestrian && reached(distance, closing, pedestrian_on),
         pedestrian_holds: pedestrian && reached_or_equal(distance, closing, pedestrian_off),
         disagreement,
-        object: valid.then_some(Object { distance, offset, closing }),
+        worst: valid.then_some(Worst { level, required, object: Object { distance, offset, closing } }),
     }
 }
 
@@ -155,17 +169,15 @@ pub fn camera_object(object: &CameraObject, config: &Config) -> Assessment {
     Assessment { mitigable, emergency, ..Assessment::NOTHING }
 }
 
-/// Merges two assessments: everything that either says. Commutative, and associative in all that obliges or permits: no
-/// order of a list decides. Only which object is *named*, for explanation, can depend on the order of three: the greatest
-/// required deceleration is kept beside an object that need not be the one that requires it.
+/// Merges two assessments: everything that either says, and the more severe obstacle. Commutative, associative, idempotent:
+/// no order of a list decides.
 #[must_use]
 pub fn merge(first: Assessment, second: Assessment) -> Assessment {
-    // Between equally severe objects their values decide, the nearer one first.
-    let place = |object: Object| (Reverse(object.distance), object.closing, object.offset);
-    let severity = |of: &Assessment| (of.object.is_some(), of.level, of.required);
-    let order = severity(&second).cmp(&severity(&first));
-    let nearer = order == Ordering::Equal && second.object.map(place) > first.object.map(place);
-    let decides = if nearer || order == Ordering::Greater { second.object } else { first.object };
+    // Between equally severe obstacles their values decide, the nearer one first.
+    let severity = |Worst { level, required, object }: Worst| {
+        (level, required, Reverse(object.distance), object.closing, object.offset)
+    };
+    let second_is_worse = second.worst.map(severity) > first.worst.map(severity);
     Assessment {
         level: first.level.max(second.level),
         closing: first.closing || second.closing,
@@ -177,6 +189,6 @@ pub fn merge(first: Assessment, second: Assessment) -> Assessment {
         pedestrian_begins: first.pedestrian_begins || second.pedestrian_begins,
         pedestrian_holds: first.pedestrian_holds || second.pedestrian_holds,
         disagreement: first.disagreement || second.disagreement,
-        object: decides,
+        worst: if second_is_worse { second.worst } else { first.worst },
     }
 }

@@ -28,7 +28,7 @@ mod picture;
 mod scene;
 mod time;
 
-pub use assess::{Assessment, camera_object, merge, radar_object, reached, reached_or_equal};
+pub use assess::{Assessment, Worst, camera_object, merge, radar_object, reached, reached_or_equal};
 pub use fusion::{Boxed, Overlap, matches};
 pub use picture::{Foot, Lens, Outline, STEPS, Size, Span};
 pub use scene::{CameraObject, Class, MAX_CAMERA, MAX_RADAR, PixelBox, RadarObject, Scene, perceive};

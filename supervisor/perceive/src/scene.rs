@@ -165,7 +165,7 @@ impl Assessment {
             forward: alert(self.forward_begins, self.forward_holds),
             pedestrian: alert(self.pedestrian_begins, self.pedestrian_holds),
             disagreement: self.disagreement,
-            object: self.object,
+            object: self.worst.map(|worst| worst.object),
         }
     }
 }
