@@ -5,7 +5,7 @@ use proptest::prelude::{Just, ProptestConfig, Strategy, any, prop_oneof, proptes
 use proptest::sample::select;
 use supervisor_core::{ClosingCmS, Config, Count, DistanceCm, Level, Millis, Object, OffsetCm};
 use supervisor_perceive::{
-    Assessment, CameraObject, Class, PixelBox, RadarObject, Scene, camera_object, merge, perceive, radar_object,
+    Assessment, CameraObject, Class, PixelBox, RadarObject, Scene, Worst, camera_object, merge, perceive, radar_object,
 };
 use supervisor_proofs::properties::object::{
     ALL, Sight, fcw_1_threat_says_what_was_merged, fus_1a_moved_is_exact, fus_3d_camera_only_permits,
