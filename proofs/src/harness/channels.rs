@@ -116,7 +116,7 @@ fn ret_1_retarder_inside_cap() {
 /// FCW-1c, PCW-1c, BODY-1, SELF-11j, E2E-2j: warnings and body.
 #[kani::proof]
 #[kani::unwind(17)]
-#[kani::stub(supervisor_core::kernel::together, crate::harness::uninterpreted::with_retarder)]
+#[kani::stub(supervisor_core::kernel::together, crate::harness::uninterpreted::together)]
 fn body_1_lamps_and_warnings() {
     let around = Around::new();
     let (envelope, given): (_, Outputs) = (&around.envelope, kani::any());

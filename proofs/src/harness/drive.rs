@@ -35,7 +35,7 @@ impl Any {
 #[kani::stub(supervisor_core::kernel::together, crate::harness::uninterpreted::together)]
 #[kani::stub(supervisor_core::kernel::portion, crate::harness::uninterpreted::portion)]
 #[kani::stub(supervisor_core::kernel::between_down, crate::harness::uninterpreted::between_down)]
-#[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent_of_one)]
+#[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent)]
 fn self_11_torque_up_to_what_is_permitted() {
     let any = Any::new();
     let outputs = any.driving();
@@ -60,7 +60,7 @@ fn self_11_torque_up_to_what_is_permitted() {
 #[kani::unwind(17)]
 #[kani::stub(supervisor_core::kernel::together, crate::harness::uninterpreted::together)]
 #[kani::stub(supervisor_core::kernel::portion, crate::harness::uninterpreted::portion)]
-#[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent_of_one)]
+#[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent)]
 fn trq_5_next_cycle_counts_from_the_output() {
     let mut any = Any::new();
     let outputs = any.driving();

@@ -13,7 +13,7 @@ use crate::properties::mode::{
 #[kani::unwind(17)]
 #[kani::stub(supervisor_core::kernel::together, crate::harness::uninterpreted::together)]
 #[kani::stub(supervisor_core::kernel::portion, crate::harness::uninterpreted::portion)]
-#[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent_of_one)]
+#[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent)]
 fn mode_1_begins_is_suspended_and_ends() {
     let any = Any::new();
     let outputs = any.driving();

@@ -91,7 +91,7 @@ fn rsp_1_wheel_follows() {
 #[kani::proof]
 #[kani::unwind(17)]
 #[kani::stub(supervisor_core::kernel::share_down, crate::harness::uninterpreted::share_down)]
-#[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent_of_one)]
+#[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent)]
 #[kani::stub(supervisor_core::Follow::advance, crate::harness::uninterpreted::follow)]
 fn rsp_1_deviations_are_found_exactly() {
     let any = AnyWatch::new();

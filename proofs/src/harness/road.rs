@@ -44,7 +44,7 @@ fn vlc_2_bounds_of_the_road() {
 #[kani::proof]
 #[kani::unwind(17)]
 #[kani::stub(supervisor_core::kernel::fallen, crate::harness::uninterpreted::fallen)]
-#[kani::stub(supervisor_core::kernel::together, crate::harness::uninterpreted::with_retarder)]
+#[kani::stub(supervisor_core::kernel::together, crate::harness::uninterpreted::together)]
 fn e2e_2_lost_request_and_record() {
     let mut any = Any::new();
     let outputs = kani::any();

@@ -14,7 +14,7 @@ use crate::properties::steering::{
 #[kani::unwind(17)]
 #[kani::stub(supervisor_core::kernel::portion, crate::harness::uninterpreted::portion)]
 #[kani::stub(supervisor_core::kernel::share_down, crate::harness::uninterpreted::share_down)]
-#[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent_of_one)]
+#[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent)]
 fn str_1_steering_is_exactly_bounded() {
     let any = Any::new();
     let steering = vet_steering(&any.decided.envelope, any.commands.steering).0;
@@ -43,7 +43,7 @@ fn str_1_steering_is_exactly_bounded() {
 #[kani::stub(supervisor_core::kernel::together, crate::harness::uninterpreted::together)]
 #[kani::stub(supervisor_core::kernel::portion, crate::harness::uninterpreted::portion)]
 #[kani::stub(supervisor_core::kernel::share_down, crate::harness::uninterpreted::share_down)]
-#[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent_of_one)]
+#[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent)]
 fn str_2_next_cycle_counts_from_the_output() {
     let mut any = Any::new();
     let envelope = &any.decided.envelope;

@@ -142,10 +142,15 @@ const fn protected_by(protection: Protection) -> u64 {
 /// its range, no code that is not in its table, no stray bit. Counter and check field are the next property's.
 #[must_use]
 pub fn cmd_1_taken_means_encoded_the_same(arrival: &Arrival) -> bool {
-    let (protection, payload) = (arrival.protection(), arrival.frame.payload());
-    let written = write(arrival.message, &arrival.new);
-    let same = protection == Protection::Bare || (written ^ payload) & !protected_by(protection) == 0;
-    implies(arrival.result.is_ok(), arrival.frame.length == 8 && same)
+    let Arrival { message, frame, new, result, .. } = arrival;
+    implies(result.is_ok(), frame.length == 8 && writes_back(*message, frame.payload(), new))
+}
+
+/// CMD-1b, CMD-1c: writing what was read of a protected message gives the same payload, to the bit.
+#[must_use]
+pub fn writes_back(message: Message, payload: u64, read: &Values) -> bool {
+    let protection = message.protection();
+    protection == Protection::Bare || (write(message, read) ^ payload) & !protected_by(protection) == 0
 }
 
 /// E2E-1c, E2E-1e: what becomes of a frame, exactly: refused for its length, its check field, its content; then by its counter: after a gap an
@@ -159,7 +164,7 @@ pub fn e2e_1c_result_is_exact(arrival: &Arrival) -> bool {
     let order = |counter: u8| match last {
         None if arrival.message.is_command() => Err(Fault::NoPredecessor),
         None => Ok(0),
-        Some(last) => match (counter + counts - last) % counts {
+        Some(last) => match (counter + counts).saturating_sub(last) % counts {
             0 => Err(Fault::Repeated),
             step @ 1..=3 => Ok(step - 1),
             _ => Err(Fault::Sequence),
@@ -195,11 +200,16 @@ pub fn rule_5a_disobeyed_at_once(arrival: &Arrival) -> bool {
 /// CMD-7a: nothing that a command says is evidence: inputs and what the supervisor says of itself stay as they are; and no input commands.
 #[must_use]
 pub fn cmd_7a_commands_are_no_evidence(arrival: &Arrival) -> bool {
-    let (old, new) = (&arrival.old, &arrival.new);
-    let evidence = matches!(arrival.message.destination(), Destination::Input);
+    reads_its_own(arrival.message, &arrival.old, &arrival.new)
+}
+
+/// CMD-7a: reading a message changes nothing but what it carries, whether it is read to its end or refused on the way.
+#[must_use]
+pub fn reads_its_own(message: Message, old: &Values, new: &Values) -> bool {
+    let evidence = matches!(message.destination(), Destination::Input);
     implies(!evidence, old.inputs == new.inputs)
-        && implies(!arrival.message.is_command(), old.outputs == new.outputs)
-        && implies(arrival.message.destination() != Destination::Status, old.status == new.status)
+        && implies(!message.is_command(), old.outputs == new.outputs)
+        && implies(message.destination() != Destination::Status, old.status == new.status)
         && old.inputs.foreign == new.inputs.foreign
         && old.inputs.second_sender == new.inputs.second_sender
 }
