@@ -15,8 +15,8 @@ use crate::properties::retarder::{ret_1a_total_below_cap, self_11g_request_insid
 use crate::properties::split::vlc_2_split_exactly;
 use crate::properties::warnings::self_11j_warnings_given_exactly;
 
-/// Any cycle around any feasible envelope and any commands: nothing of it comes from `decide`.
-struct Around {
+/// A cycle around any feasible envelope and any commands: nothing of it comes from `decide`.
+pub(super) struct Around {
     old: State,
     new: State,
     next: State,
@@ -24,13 +24,26 @@ struct Around {
     inputs: Inputs,
     threat: Threat,
     response: Response,
-    commands: Commands,
+    pub(super) commands: Commands,
     config: Config,
-    envelope: Envelope,
+    pub(super) envelope: Envelope,
     faults: Faults,
 }
 
 impl Around {
+    /// Any state, inputs, threat and configuration around it: what is proved of `decide` may be asked of them.
+    pub(super) fn any() -> Self {
+        Self {
+            old: kani::any(),
+            new: kani::any(),
+            inputs: kani::any(),
+            threat: kani::any(),
+            response: kani::any(),
+            config: kani::any(),
+            ..Self::new()
+        }
+    }
+    /// For properties that read nothing but the envelope and the commands.
     fn new() -> Self {
         Self {
             old: State::INITIAL,
@@ -46,7 +59,7 @@ impl Around {
             faults: Faults::NONE,
         }
     }
-    fn cycle<'a>(&'a self, outputs: &'a Outputs) -> Cycle<'a> {
+    pub(super) fn cycle<'a>(&'a self, outputs: &'a Outputs) -> Cycle<'a> {
         Cycle {
             old: &self.old,
             now: self.now,
@@ -60,7 +73,7 @@ impl Around {
             faults: self.faults,
             outputs,
             next: &self.next,
-            agreed: None,
+            agreed: crate::properties::facts::agreed_speeds(&self.inputs, &self.config),
         }
     }
 }

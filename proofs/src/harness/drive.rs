@@ -1,35 +1,44 @@
 //! Torque, gear and mode that go out, any command (TRQ, VLC-1, SELF-11a).
 
 use supervisor_core::{
-    ExitReason, Mode, Origin, Outputs, Percent, vet_drive, vet_gear, vet_mode, vet_target_speed, vet_warnings,
+    ExitReason, Mode, Origin, Outputs, Percent, SpeedKmhQ8, vet_drive, vet_gear, vet_mode, vet_target_speed,
+    vet_warnings,
 };
 
 use super::Any;
+use super::channels::Around;
 use crate::properties::drive::{
-    e2e_2_lost_drive_command, self_11_torque_is_exactly_bounded, trq_1_pedal_governs, trq_2_automated_torque_needs_all,
-    trq_5_counts_from_our_last_output, trq_5_release_after_leave, trq_5_within_limit_and_ramp, trq_6_hill_hold,
-    trq_6_hill_hold_counts_real_time,
+    e2e_2_lost_drive_command, self_11_torque_is_exactly_bounded, trq_1_bounds_exactly, trq_1_pedal_governs,
+    trq_2_automated_torque_needs_all, trq_5_counts_from_our_last_output, trq_5_release_after_leave,
+    trq_5_within_limit_and_ramp, trq_5e_no_torque_until_released, trq_6_hill_hold, trq_6_hill_hold_counts_real_time,
 };
 use crate::properties::mode::{
-    mode_1_end_is_shown, mode_1_follows_what_went_out, mode_1_set_is_new_evidence, trq_4_compares_with_what_was_asked,
+    mode_1_begins_only_by_the_driver, mode_1_end_is_shown, mode_1_ends_exactly_for_a_reason,
+    mode_1_follows_what_went_out, mode_1_permission_exactly, mode_1_set_is_new_evidence,
+    spd_1_target_speed_is_exactly_bounded, trq_4_compares_with_what_was_asked, trq_4_never_against_an_obligation,
 };
 
-impl Any {
-    /// The channels of the drive as vetted for the commands of the cycle, whatever brake and retarder do.
-    pub(super) fn driving(&self) -> Outputs {
-        let (envelope, others): (_, Outputs) = (&self.decided.envelope, kani::any());
-        let gear = vet_gear(envelope, self.commands.gear).0;
-        let mode = vet_mode(envelope, self.commands.mode).0;
-        let braking = envelope.brake.total(&others);
-        let drive = vet_drive(envelope, mode, gear, braking, self.commands.drive).0;
-        let target_speed = vet_target_speed(envelope, mode, self.commands.target_speed).0;
-        let warnings = vet_warnings(envelope, self.commands.warnings).0;
-        Outputs { gear, mode, drive, target_speed, warnings, ..others }
-    }
+/// SELF-11a, TRQ-1 to TRQ-6, VLC-1, SEAT-6b: the bounds of the torque, exactly.
+#[kani::proof]
+#[kani::unwind(17)]
+#[kani::stub(supervisor_core::kernel::portion, crate::harness::uninterpreted::portion)]
+#[kani::stub(supervisor_core::kernel::between_down, crate::harness::uninterpreted::between_down)]
+#[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent)]
+fn trq_1_bounds_of_the_torque() {
+    let any = Any::new();
+    let outputs = kani::any();
+    assert!(trq_1_bounds_exactly(&any.cycle(&outputs)));
+    let (bound, mode) = (&any.decided.envelope.torque, any.decided.state.drive.mode);
+    kani::cover!(bound.hill_hold && bound.driver.most == Percent::new(1), "the driver, on a hill");
+    kani::cover!(bound.automated.most > Percent::ZERO && mode == Mode::Suspended, "ADAS, overridden");
+    kani::cover!(bound.epbi.most > any.old.drive.torque, "EPBi, and it rises");
 }
 
-/// SELF-11a, TRQ-1, TRQ-2, TRQ-5, TRQ-6, RSP-1n, E2E-2a, E2E-2b: the torque that goes out is exactly what is asked for,
-/// up to what is permitted; and what each requirement says of it, one by one.
+/// SELF-11a, TRQ-1, TRQ-2, TRQ-4h, TRQ-5, TRQ-6, RSP-1n, MODE-1, SPD-1, E2E-2a, E2E-2b: the torque that goes out is exactly what
+/// is asked for, up to what is permitted; and what each requirement says of it, one by one.
+///
+/// Of the envelope nothing is taken for granted but what is proved of it: it is feasible (`self_1_decide_total_and_feasible`), its
+/// bounds are exact (`trq_1_bounds_of_the_torque`, `mode_1_begins_is_suspended_and_ends`). Everything around it is any.
 #[kani::proof]
 #[kani::unwind(17)]
 #[kani::stub(supervisor_core::kernel::together, crate::harness::uninterpreted::together)]
@@ -37,21 +46,31 @@ impl Any {
 #[kani::stub(supervisor_core::kernel::between_down, crate::harness::uninterpreted::between_down)]
 #[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent)]
 fn self_11_torque_up_to_what_is_permitted() {
-    let any = Any::new();
-    let outputs = any.driving();
-    let cycle = any.cycle(&outputs);
+    let around = Around::any();
+    let (envelope, commands, others): (_, _, Outputs) = (&around.envelope, &around.commands, kani::any());
+    let gear = vet_gear(envelope, commands.gear).0;
+    let mode = vet_mode(envelope, commands.mode).0;
+    let drive = vet_drive(envelope, mode, gear, envelope.brake.total(&others), commands.drive).0;
+    let target_speed = vet_target_speed(envelope, mode, commands.target_speed).0;
+    let outputs = Outputs { gear, mode, drive, target_speed, ..others };
+    let cycle = around.cycle(&outputs);
+    kani::assume(trq_1_bounds_exactly(&cycle) && mode_1_permission_exactly(&cycle));
+    kani::assume(mode_1_ends_exactly_for_a_reason(&cycle));
+    assert!(self_11_torque_is_exactly_bounded(&cycle));
     assert!(trq_1_pedal_governs(&cycle));
     assert!(trq_2_automated_torque_needs_all(&cycle));
+    assert!(trq_4_never_against_an_obligation(&cycle));
     assert!(trq_5_within_limit_and_ramp(&cycle));
+    assert!(trq_5e_no_torque_until_released(&cycle));
     assert!(trq_6_hill_hold(&cycle));
-    assert!(self_11_torque_is_exactly_bounded(&cycle));
     assert!(e2e_2_lost_drive_command(&cycle));
-    let (torque, origin) = (outputs.drive.torque, outputs.drive.origin);
-    let (flows, mode) = (torque > Percent::ZERO, any.decided.state.drive.mode);
-    kani::cover!(flows && origin == Origin::Driver && outputs.brake.total.raw() > 0, "hill-hold");
-    kani::cover!(flows && origin == Origin::Adas && mode == Mode::Suspended, "the driver overrides");
-    kani::cover!(flows && origin == Origin::Epbi && torque < any.old.drive.torque, "torque of EPBi passes, and falls");
-    kani::cover!(torque == Percent::new(1) && origin == Origin::Adas, "1 % passes");
+    assert!(mode_1_begins_only_by_the_driver(&cycle));
+    assert!(spd_1_target_speed_is_exactly_bounded(&cycle));
+    let flows = drive.torque > Percent::ZERO;
+    kani::cover!(flows && drive.origin == Origin::Driver && outputs.brake.total.raw() > 0, "hill-hold");
+    kani::cover!(flows && drive.origin == Origin::Epbi, "torque of EPBi passes");
+    kani::cover!(drive.torque == Percent::new(1) && drive.origin == Origin::Adas, "1 % passes");
+    kani::cover!(target_speed > SpeedKmhQ8::ZERO, "a target speed passes");
 }
 
 /// TRQ-5b, TRQ-5d, TRQ-5e, TRQ-6b, MODE-1a, MODE-1f, TRQ-2b, TRQ-4b, CMD-3f: what the next cycle counts from and remembers
@@ -63,7 +82,8 @@ fn self_11_torque_up_to_what_is_permitted() {
 #[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent)]
 fn trq_5_next_cycle_counts_from_the_output() {
     let mut any = Any::new();
-    let outputs = any.driving();
+    let warnings = vet_warnings(&any.decided.envelope, any.commands.warnings).0;
+    let outputs = Outputs { warnings, ..kani::any() };
     any.record(&outputs);
     let cycle = any.cycle(&outputs);
     assert!(trq_5_counts_from_our_last_output(&cycle));

@@ -1,34 +1,29 @@
 //! The automated mode and the driver's override, any command (MODE-1, TRQ-3, TRQ-4, SPD-1).
 
-use supervisor_core::{Commands, DrivingMode, ExitReason, Mode, SpeedKmhQ8, vet};
+use supervisor_core::{Commands, ExitReason, Mode, SpeedKmhQ8, vet};
 
 use super::Any;
-use crate::properties::mode::{
-    mode_1_begins_only_by_the_driver, mode_1_ends_exactly_for_a_reason, spd_1_target_speed_is_exactly_bounded,
-    trq_4_never_against_an_obligation, trq_4_override_suspends,
-};
+use crate::properties::mode::{mode_1_ends_exactly_for_a_reason, mode_1_permission_exactly, trq_4_override_suspends};
 
-/// MODE-1, TRQ-3c, TRQ-4, SPD-1: when the mode begins, is suspended and ends, exactly; and the target speed with it.
+/// MODE-1, TRQ-3c, TRQ-4, SPD-1: when the mode may begin, is suspended and ends, exactly; and the bound of the target speed.
 #[kani::proof]
 #[kani::unwind(17)]
-#[kani::stub(supervisor_core::kernel::together, crate::harness::uninterpreted::together)]
 #[kani::stub(supervisor_core::kernel::portion, crate::harness::uninterpreted::portion)]
 #[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent)]
 fn mode_1_begins_is_suspended_and_ends() {
     let any = Any::new();
-    let outputs = any.driving();
+    let outputs = kani::any();
     let cycle = any.cycle(&outputs);
     assert!(mode_1_ends_exactly_for_a_reason(&cycle));
     assert!(trq_4_override_suspends(&cycle));
-    assert!(trq_4_never_against_an_obligation(&cycle));
-    assert!(mode_1_begins_only_by_the_driver(&cycle));
-    assert!(spd_1_target_speed_is_exactly_bounded(&cycle));
+    assert!(mode_1_permission_exactly(&cycle));
     let (old, new) = (&any.old.drive, &any.decided.state.drive);
-    kani::cover!(old.mode == Mode::Manual && outputs.mode == DrivingMode::Automated, "the mode begins");
+    let envelope = &any.decided.envelope;
+    kani::cover!(old.mode == Mode::Manual && envelope.automated.is_ok(), "the mode may begin");
     kani::cover!(old.mode == Mode::Automated && new.mode == Mode::Suspended, "the driver overrides");
     kani::cover!(old.mode == Mode::Suspended && new.mode == Mode::Automated, "the override ends");
     kani::cover!(old.mode != Mode::Manual && new.exit == ExitReason::InputLost, "the last of the reasons");
-    kani::cover!(outputs.target_speed > SpeedKmhQ8::ZERO, "a target speed passes");
+    kani::cover!(envelope.target_speed.most > SpeedKmhQ8::ZERO, "a target speed may pass");
 }
 
 /// SPD-1c: whatever the target speed, nothing else that goes out depends on it, the brake least of all.

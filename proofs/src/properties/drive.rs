@@ -19,6 +19,8 @@ pub const ALL: &[Property] = all![
     trq_5_within_limit_and_ramp,
     trq_5_counts_from_our_last_output,
     trq_5_release_after_leave,
+    trq_5e_no_torque_until_released,
+    trq_1_bounds_exactly,
     trq_6_hill_hold,
     trq_6_hill_hold_counts_real_time,
     self_11_torque_is_exactly_bounded,
@@ -151,9 +153,13 @@ pub fn trq_5_release_after_leave(cycle: &Cycle<'_>) -> bool {
     let released = accelerator(cycle).is_some_and(|travel| travel <= cycle.config.pedal_pressed.raw());
     let begins = cycle.new.seat.leave || cycle.response.torque != Deviation::None;
     let needed = begins || (cycle.old.drive.release_needed && !released);
-    cycle.new.drive.release_needed == needed
-        && cycle.next.drive.release_needed == needed
-        && implies(needed, !flows(cycle))
+    cycle.new.drive.release_needed == needed && cycle.next.drive.release_needed == needed
+}
+
+/// TRQ-5e: and no torque goes out meanwhile.
+#[must_use]
+pub fn trq_5e_no_torque_until_released(cycle: &Cycle<'_>) -> bool {
+    implies(cycle.new.drive.release_needed, !flows(cycle))
 }
 
 /// TRQ-6b: torque may act against the brake: the driver confirmed, slow, and the time not used up.
@@ -201,38 +207,58 @@ fn attended(cycle: &Cycle<'_>) -> bool {
     confirmed(cycle) || (rolls && cycle.inputs.epb.is(supervisor_core::EpbState::Released))
 }
 
-/// The most of what is asked for that may go out.
-fn most(cycle: &Cycle<'_>, asked: DriveTorque) -> u8 {
-    let (config, driver) = (cycle.config, asked.origin == Origin::Driver);
+/// The most that state, inputs and threat leave to driver, ADAS and EPBi, whatever is asked for.
+fn bounds(cycle: &Cycle<'_>) -> [u8; 3] {
+    let (config, drive) = (cycle.config, &cycle.new.drive);
     let refused = obliged(cycle)
-        || cycle.new.drive.release_needed
+        || drive.release_needed
         || cycle.new.high_voltage.stage != Stage::Up
         || !attended(cycle)
-        || !in_gear(cycle)
-        || (brakes(cycle) && !(driver && holds_on_hill(cycle)));
+        || !(cycle.inputs.gear.is(Gear::Drive) || cycle.inputs.gear.is(Gear::Reverse));
     let limit = cycle.inputs.drive_limit.known().map_or(0, Percent::raw);
     let held = if cycle.inputs.asr.is(false) { 100 } else { cycle.old.drive.torque.raw().min(100) };
     let common = if refused || limit > 100 { 0 } else { limit.min(held) };
-    let by_driver = common.min(ramp(cycle)).min(by_pedal(cycle));
-    if driver {
-        return by_driver;
-    }
-    let granted = asked.active
-        && cycle.outputs.mode == DrivingMode::Automated
-        && cycle.new.drive.mode != Mode::Manual
+    let (ramp, idle) = (ramp(cycle), config.idle_torque.raw());
+    let driver = common.min(ramp).min(by_pedal(cycle));
+    let granted = drive.mode != Mode::Manual
+        && cycle.envelope.automated.is_ok()
         && brake_released(cycle)
         && cycle.threat.known
-        && cycle.threat.level == Level::None
-        && (asked.origin == Origin::Epbi) == (config.longitudinal_mode != Count::ZERO);
-    let suspended = if cycle.new.drive.mode == Mode::Suspended { by_driver } else { 100 };
+        && cycle.threat.level == Level::None;
+    let suspended = if drive.mode == Mode::Suspended { driver } else { 100 };
     let bounded = if granted { common.min(suspended).min(config.automated_torque.raw()) } else { 0 };
+    let by_epbi = config.longitudinal_mode != Count::ZERO;
+    let [adas, epbi] = [!by_epbi, by_epbi].map(|configured| if configured { bounded } else { 0 });
+    [driver, adas.min(ramp), epbi.min(ramp.max(idle))]
+}
+
+/// SELF-11a, TRQ-1a to TRQ-1c, TRQ-2b to TRQ-2e, TRQ-3a, TRQ-4f, TRQ-5a to TRQ-5g, TRQ-6b, TRQ-6c, VLC-1a, VLC-1c, VLC-1d, SEAT-6b:
+/// the bounds of the torque are exactly what the requirements leave: nothing more, and nothing less, were it 1 %.
+#[must_use]
+pub fn trq_1_bounds_exactly(cycle: &Cycle<'_>) -> bool {
+    let (bound, timeouts) = (&cycle.envelope.torque, &cycle.envelope.timeouts);
+    [bound.driver, bound.automated, bound.epbi].map(|bound| bound.most.raw()) == bounds(cycle)
+        && bound.idle == cycle.config.idle_torque
+        && bound.hill_hold == holds_on_hill(cycle)
+        && cycle.envelope.gear.confirmed == cycle.inputs.gear.known()
+        && timeouts.ms50 == cycle.config.timeout_50
+        && timeouts.ms100 == cycle.config.timeout_100
+}
+
+/// The most of what is asked for that may go out.
+fn most(cycle: &Cycle<'_>, asked: DriveTorque) -> u8 {
+    let [driver, adas, epbi] = bounds(cycle);
+    let by_driver = asked.origin == Origin::Driver;
+    if !in_gear(cycle) || (brakes(cycle) && !(by_driver && holds_on_hill(cycle))) {
+        return 0;
+    }
+    let granted = asked.active && cycle.outputs.mode == DrivingMode::Automated;
     match asked.origin {
-        Origin::Driver | Origin::Adas => bounded.min(ramp(cycle)),
-        Origin::Epbi => {
-            let bounded = bounded.min(ramp(cycle).max(config.idle_torque.raw()));
-            // TRQ-5f: below the idle torque there is none.
-            if bounded.min(asked.torque.raw()) < config.idle_torque.raw() { 0 } else { bounded }
-        }
+        Origin::Driver => driver,
+        Origin::Adas if granted => adas,
+        // TRQ-5f: below the idle torque there is none.
+        Origin::Epbi if granted && epbi.min(asked.torque.raw()) >= cycle.config.idle_torque.raw() => epbi,
+        Origin::Adas | Origin::Epbi => 0,
     }
 }
 

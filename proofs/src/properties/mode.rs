@@ -10,6 +10,7 @@ pub const ALL: &[Property] = all![
     mode_1_ends_exactly_for_a_reason,
     trq_4_override_suspends,
     trq_4_never_against_an_obligation,
+    mode_1_permission_exactly,
     mode_1_begins_only_by_the_driver,
     mode_1_set_is_new_evidence,
     mode_1_follows_what_went_out,
@@ -91,14 +92,33 @@ pub fn trq_4_never_against_an_obligation(cycle: &Cycle<'_>) -> bool {
     )
 }
 
+/// Nothing speaks against the automated mode, and it runs already or the driver, confirmed on the seat, has set it anew.
+fn may_be_automated(cycle: &Cycle<'_>) -> bool {
+    let by_driver = cycle.new.drive.armed && cycle.inputs.driver_set.is(true) && confirmed(cycle);
+    ends(cycle).is_none() && (cycle.new.drive.mode != Mode::Manual || by_driver)
+}
+
+/// The most that the target speed may be.
+fn target_speed(cycle: &Cycle<'_>) -> SpeedKmhQ8 {
+    let may = cycle.new.drive.mode != Mode::Manual && cycle.envelope.automated.is_ok();
+    let free = !obliged(cycle) && cycle.threat.level == Level::None;
+    if may && free { cycle.config.speed_limit } else { SpeedKmhQ8::ZERO }
+}
+
+/// MODE-1a to MODE-1c, SELF-11k, SPD-1a, SPD-1b, SELF-11f: what the mode and the target speed are bounded by, exactly.
+#[must_use]
+pub fn mode_1_permission_exactly(cycle: &Cycle<'_>) -> bool {
+    cycle.envelope.automated.is_ok() == may_be_automated(cycle)
+        && cycle.envelope.target_speed.most == target_speed(cycle)
+        && cycle.envelope.timeouts.ms200 == cycle.config.timeout_200
+}
+
 /// MODE-1a to MODE-1c, SELF-11k: *automated* goes out exactly when it is asked for, nothing speaks against it, and it
 /// runs already or the driver, confirmed on the seat, has set it anew.
 #[must_use]
 pub fn mode_1_begins_only_by_the_driver(cycle: &Cycle<'_>) -> bool {
     let asked = cycle.commands.mode.usable(cycle.config.timeout_200) == Ok(DrivingMode::Automated);
-    let by_driver = cycle.new.drive.armed && cycle.inputs.driver_set.is(true) && confirmed(cycle);
-    let may = ends(cycle).is_none() && (cycle.new.drive.mode != Mode::Manual || by_driver);
-    (cycle.outputs.mode == DrivingMode::Automated) == (asked && may)
+    (cycle.outputs.mode == DrivingMode::Automated) == (asked && may_be_automated(cycle))
 }
 
 /// MODE-1a, TRQ-2b, TRQ-3c: what the driver sets counts only after it was seen off since the mode last ended.
@@ -155,7 +175,6 @@ pub fn trq_4_compares_with_what_was_asked(cycle: &Cycle<'_>) -> bool {
 #[must_use]
 pub fn spd_1_target_speed_is_exactly_bounded(cycle: &Cycle<'_>) -> bool {
     let asked = cycle.commands.target_speed.usable(cycle.config.timeout_50).unwrap_or(SpeedKmhQ8::ZERO);
-    let automated = cycle.new.drive.mode != Mode::Manual && cycle.outputs.mode == DrivingMode::Automated;
-    let may = automated && !obliged(cycle) && cycle.threat.level == Level::None;
-    cycle.outputs.target_speed == (if may { asked.min(cycle.config.speed_limit) } else { SpeedKmhQ8::ZERO })
+    let automated = cycle.outputs.mode == DrivingMode::Automated;
+    cycle.outputs.target_speed == (if automated { asked.min(target_speed(cycle)) } else { SpeedKmhQ8::ZERO })
 }
