@@ -3,38 +3,55 @@
 use supervisor_core::{Outputs, Percent, vet_steering, vet_warnings};
 
 use super::Any;
+use super::channels::Around;
 use crate::properties::steering::{
     cmd_3_steering_counts_from_our_last_output, str_1_angle_is_exactly_bounded, str_1_angle_stays_in_range,
-    str_1_overlay_below_takeover, str_1_rate_and_bar_never_widened, str_2_asked_for_anew, str_2_end_is_shown,
-    str_2_idle_commands_nothing, str_2_overlay_fades, str_2_permitted_exactly, str_2_takeover_ends, str_2_weight_fades,
+    str_1_bounds_exactly, str_1_overlay_below_takeover, str_1_rate_and_bar_never_widened, str_2_asked_for_anew,
+    str_2_end_is_shown, str_2_idle_commands_nothing, str_2_overlay_fades, str_2_permitted_exactly, str_2_takeover_ends,
+    str_2_weight_fades,
 };
 
-/// STR-1, STR-2, SELF-5g, E2E-2i: when it may act, how it begins and ends, and how far it turns meanwhile.
+/// STR-1, STR-2, SELF-5g: when it may act, and its bounds, exactly.
+#[kani::proof]
+#[kani::unwind(17)]
+#[kani::stub(supervisor_core::kernel::portion, crate::harness::uninterpreted::portion)]
+#[kani::stub(supervisor_core::kernel::share_down, crate::harness::uninterpreted::share_down)]
+#[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent)]
+fn str_1_bounds_of_the_steering() {
+    let any = Any::new();
+    let outputs = kani::any();
+    let cycle = any.cycle(&outputs);
+    assert!(str_2_permitted_exactly(&cycle));
+    assert!(str_1_bounds_exactly(&cycle));
+    let (bound, acts) = (&any.decided.envelope.steering, any.old.steering.weight > Percent::ZERO);
+    kani::cover!(!acts && bound.enable.is_ok() && bound.angle_least < bound.angle_most, "it may begin");
+    kani::cover!(acts && any.inputs.wheel_speed.known().is_none(), "without a speed");
+}
+
+/// STR-1, STR-2, SELF-5g, E2E-2i: how it begins and ends, and how far it turns meanwhile: of any feasible envelope whose bounds are
+/// exact (`str_1_bounds_of_the_steering`). Everything around it is any.
 #[kani::proof]
 #[kani::unwind(17)]
 #[kani::stub(supervisor_core::kernel::portion, crate::harness::uninterpreted::portion)]
 #[kani::stub(supervisor_core::kernel::share_down, crate::harness::uninterpreted::share_down)]
 #[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent)]
 fn str_1_steering_is_exactly_bounded() {
-    let any = Any::new();
-    let steering = vet_steering(&any.decided.envelope, any.commands.steering).0;
+    let around = Around::any();
+    let steering = vet_steering(&around.envelope, around.commands.steering).0;
     let outputs = Outputs { steering, ..kani::any() };
-    let cycle = any.cycle(&outputs);
-    assert!(str_2_permitted_exactly(&cycle));
+    let cycle = around.cycle(&outputs);
+    kani::assume(str_1_bounds_exactly(&cycle));
     assert!(str_1_angle_is_exactly_bounded(&cycle));
     assert!(str_1_rate_and_bar_never_widened(&cycle));
     assert!(str_1_overlay_below_takeover(&cycle));
     assert!(str_2_overlay_fades(&cycle));
     assert!(str_2_weight_fades(&cycle));
     assert!(str_2_idle_commands_nothing(&cycle));
-    let (before, out, new) = (any.old.steering.weight, &outputs.steering, &any.decided.state);
-    let acts = out.weight > Percent::ZERO;
-    kani::cover!(before == Percent::ZERO && acts, "it begins");
-    kani::cover!(before > out.weight && acts && new.is_safe_state(), "in the safe state it fades out");
-    kani::cover!(before == out.weight && acts && new.seat.leave, "in leave it goes on");
-    kani::cover!(acts && out.angle != any.old.steering.angle, "the wheel turns");
-    kani::cover!(acts && any.inputs.wheel_speed.known().is_none(), "without a speed it fades out");
-    kani::cover!(!out.enable && out.angle.raw() > 0, "idle fields pass");
+    let (before, acts) = (&cycle.old.steering, steering.weight > Percent::ZERO);
+    kani::cover!(before.weight == Percent::ZERO && acts, "it begins");
+    kani::cover!(before.weight > steering.weight && acts, "it fades out");
+    kani::cover!(acts && steering.angle != before.angle, "the wheel turns");
+    kani::cover!(!steering.enable && steering.angle.raw() > 0, "idle fields pass");
 }
 
 /// STR-1a, STR-2a, STR-2b, CMD-3f: takeover, and what the next cycle counts from and remembers of the steering.

@@ -8,6 +8,7 @@ use super::{Cycle, Property, all, implies};
 /// Every property of this file.
 pub const ALL: &[Property] = all![
     str_2_permitted_exactly,
+    str_1_bounds_exactly,
     str_1_angle_is_exactly_bounded,
     str_1_angle_stays_in_range,
     str_1_rate_and_bar_never_widened,
@@ -90,6 +91,41 @@ fn fade(cycle: &Cycle<'_>, outwards: bool) -> u8 {
     u8::try_from(share).unwrap_or(u8::MAX)
 }
 
+/// The overlay torques that are permitted: what the fade leaves and allows either way from the last one.
+fn overlays(cycle: &Cycle<'_>) -> (i32, i32) {
+    let full = i32::from(cycle.config.steering_overlay.raw()).max(0);
+    let step = |outwards| {
+        let whole = u16::try_from(full).unwrap_or(0);
+        i32::from(kernel::share_down(whole, fade(cycle, outwards)).min(32_767))
+    };
+    let before = i32::from(cycle.old.steering.overlay.raw()).max(-full).min(full);
+    // Towards 0 it fades out, away from 0 in.
+    let (down, up) = (step(before > 0), step(before < 0));
+    ((before - down).max(-full), (before + up).min(full))
+}
+
+/// The weights that are permitted: what the fade leaves and allows.
+fn weights(cycle: &Cycle<'_>) -> (u8, u8) {
+    let before = cycle.old.steering.weight.raw().min(100);
+    (before.saturating_sub(fade(cycle, true)), before.saturating_add(fade(cycle, false)).min(100))
+}
+
+/// STR-1b to STR-1g, STR-2c, STR-2d, SELF-5g, SELF-11e, CMD-3f: the bounds of automatic steering are exactly what the requirements
+/// leave; what it falls back to is where it is, as far as they permit that, without a torque.
+#[must_use]
+pub fn str_1_bounds_exactly(cycle: &Cycle<'_>) -> bool {
+    let (bound, config) = (&cycle.envelope.steering, cycle.config);
+    let ((least, most), (overlay_least, overlay_most)) = (angles(cycle), overlays(cycle));
+    let angles = [bound.angle_least, bound.angle_most, bound.angle_neutral].map(|angle| i32::from(angle.raw()));
+    let overlays = [bound.overlay_least, bound.overlay_most, bound.overlay_neutral];
+    angles == [least, most, start(cycle).max(least).min(most)]
+        && overlays.map(|torque| i32::from(torque.raw()))
+            == [overlay_least, overlay_most, 0.max(overlay_least).min(overlay_most)]
+        && (bound.weight_least.raw(), bound.weight_most.raw()) == weights(cycle)
+        && (bound.range, bound.rate, bound.bar) == (config.steering_range, rate(cycle), config.steering_bar)
+        && cycle.envelope.timeouts.ms50 == config.timeout_50
+}
+
 /// STR-2a, STR-2e, STR-2g, STR-2h, SELF-5g: automatic steering is permitted exactly outside of the safe state, not
 /// taken over, not astray, with the power steering known ready or active, wheel and hands known, within the speed
 /// range, and while it acts already or a mode is granted, the cruise switch not known off. Leave is none of the
@@ -154,15 +190,7 @@ pub fn str_1_overlay_below_takeover(cycle: &Cycle<'_>) -> bool {
 /// either way from the last one; not permitted, not asked for or lost, it fades towards 0.
 #[must_use]
 pub fn str_2_overlay_fades(cycle: &Cycle<'_>) -> bool {
-    let full = i32::from(cycle.config.steering_overlay.raw()).max(0);
-    let step = |outwards| {
-        let whole = u16::try_from(full).unwrap_or(0);
-        i32::from(kernel::share_down(whole, fade(cycle, outwards)).min(32_767))
-    };
-    let before = i32::from(cycle.old.steering.overlay.raw()).max(-full).min(full);
-    // Towards 0 it fades out, away from 0 in.
-    let (down, up) = (step(before > 0), step(before < 0));
-    let (least, most) = ((before - down).max(-full), (before + up).min(full));
+    let (least, most) = overlays(cycle);
     let wanted = granted(cycle).map_or(0, |asked| i32::from(asked.overlay.raw()));
     i32::from(cycle.outputs.steering.overlay.raw()) == wanted.max(least).min(most)
 }
@@ -171,9 +199,7 @@ pub fn str_2_overlay_fades(cycle: &Cycle<'_>) -> bool {
 /// permitted, not asked for or lost, it fades out, and automatic steering acts until it has.
 #[must_use]
 pub fn str_2_weight_fades(cycle: &Cycle<'_>) -> bool {
-    let before = cycle.old.steering.weight.raw().min(100);
-    let least = before.saturating_sub(fade(cycle, true));
-    let most = before.saturating_add(fade(cycle, false)).min(100);
+    let (least, most) = weights(cycle);
     let out = &cycle.outputs.steering;
     match granted(cycle) {
         Some(asked) => out.enable && out.weight.raw() == asked.weight.raw().max(least).min(most),
