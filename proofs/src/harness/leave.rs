@@ -8,9 +8,13 @@ use crate::properties::leave::{at_least_table, is_table};
 
 /// What the shipped `decide` demands in leave at this speed, the parking brake applied: the table alone.
 fn demand(speed: u16, config: &Config) -> DecelMs2Q11 {
+    demand_with(speed, Signal::Known(EpbState::Applied), config)
+}
+
+/// The same with the parking brake as it is.
+fn demand_with(speed: u16, epb: Signal<EpbState>, config: &Config) -> DecelMs2Q11 {
     let speed = Signal::Known(SpeedKmhQ8::new(speed));
-    let inputs =
-        Inputs { wheel_speed: speed, motor_speed: speed, epb: Signal::Known(EpbState::Applied), ..Inputs::NEVER };
+    let inputs = Inputs { wheel_speed: speed, motor_speed: speed, epb, ..Inputs::NEVER };
     let state = State { seat: SeatState { leave: true, ..SeatState::INITIAL }, ..State::INITIAL };
     decide(&state, Millis::ZERO, &inputs, &Threat::CLEAR, &Response::FOLLOWS, config).state.brake.leave
 }
@@ -25,6 +29,19 @@ fn seat_3_table_exactly() {
     assert!(is_table(demand, speed, &config));
     kani::cover!(speed > 2560 && speed < 3840 && demand.raw() > 0, "between two points");
     kani::cover!(speed > 15_360, "beyond the table");
+}
+
+/// SEAT-3d: slower than the hold speed the bus is held as long as the parking brake is not known applied; that is all it adds.
+#[kani::proof]
+#[kani::unwind(17)]
+fn seat_3_holds_at_rest() {
+    let config =
+        Config { leave_decel: kani::any(), leave_hold: kani::any(), leave_hold_speed: kani::any(), ..Config::DEFAULT };
+    let (speed, epb): (u16, Signal<EpbState>) = (kani::any(), kani::any());
+    let (table, demand) = (demand(speed, &config), demand_with(speed, epb, &config));
+    let holds = speed < config.leave_hold_speed.raw() && !epb.is(EpbState::Applied);
+    assert!(demand == if holds { table.max(config.leave_hold) } else { table });
+    kani::cover!(demand > table, "it holds");
 }
 
 /// SEAT-3b: a table that rises gives a demand that does not fall, from each 1/256 km/h to the next, and so over all speeds.

@@ -1,12 +1,14 @@
 //! `supervise mistakes`.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
 use super::{FINDINGS, NOT_RUN, Outcome, print};
 use crate::cli::Mistakes;
+use crate::mistakes;
 use crate::mistakes::{Kani, List, Record, Request, Shard, block, check, replaced, run as plant};
-use crate::{mistakes, prove};
+use crate::prove::{self, Place, Present, RECORD, State};
 
 pub(super) fn run(arguments: &Mistakes) -> Outcome {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().ok_or("the workspace has no folder")?;
@@ -52,7 +54,8 @@ fn missing(arguments: &Mistakes) -> Option<&'static str> {
 /// What the record shows on the present sources, and what it does not.
 fn show(root: &Path, arguments: &Mistakes) -> Outcome {
     let (list, record, sources) = (List::load(root)?, Record::load(root)?, prove::sources_digest(root)?);
-    let block = block(&list, &record, &sources);
+    let proved = proved(root, &sources)?;
+    let block = block(&list, &record, &sources, &proved);
     for line in block.lines().filter(|line| line.contains(" named mistakes are ") || line.starts_with("Of ")) {
         print(format_args!("{line}\n"))?;
     }
@@ -61,9 +64,18 @@ fn show(root: &Path, arguments: &Mistakes) -> Outcome {
         let text = replaced(&text, &block).ok_or_else(|| format!("{}: no place for the table", path.display()))?;
         fs::write(path, text).map_err(|error| format!("{}: {error}", path.display()))?;
     }
-    let findings = check(&list, &record, root, &sources)?;
+    let findings = check(&list, &record, root, &sources, &proved)?;
     for finding in &findings {
         print(format_args!("{finding}\n"))?;
     }
     Ok(if findings.is_empty() { 0 } else { FINDINGS })
+}
+
+/// The harnesses that are proved on the sources without any mistake.
+fn proved(root: &Path, sources: &str) -> Result<BTreeSet<String>, prove::ProveError> {
+    let (harnesses, record) = (prove::List::load(root)?, prove::Record::load(&root.join(RECORD))?);
+    let present = Present { sources: sources.to_owned(), configuration: prove::default_configuration()? };
+    let place = Place::committed(root);
+    let proved = harnesses.harness.iter().filter(|of| State::of(of, &record, &place, &present).is_proved());
+    Ok(proved.map(|harness| harness.name.clone()).collect())
 }

@@ -1,5 +1,6 @@
 //! Whether the record shows what it must, on the present sources.
 
+use std::collections::BTreeSet;
 use std::path::Path;
 
 use super::list::{List, Mistake};
@@ -17,6 +18,8 @@ pub enum Finding {
     NotCaught(String, Outcome),
     /// It was caught by this harness, which is no longer the one that must catch it.
     ByAnother(String, String),
+    /// It was caught by this harness, which is not proved without it: a proof that always fails catches everything.
+    ByUnproved(String, String),
     /// Of the drawn ones, so many ran on the present sources, of so many.
     Drawn(usize, usize),
     /// A drawn mistake that survives without an explanation.
@@ -32,6 +35,9 @@ impl std::fmt::Display for Finding {
             Self::Stale(count) => write!(f, "STALE: {count} named mistakes ran on other sources"),
             Self::NotCaught(name, outcome) => write!(f, "NOT CAUGHT: {name} ({})", word(outcome)),
             Self::ByAnother(name, harness) => write!(f, "{name} was caught by {harness}, which is not in its list"),
+            Self::ByUnproved(name, harness) => {
+                write!(f, "{name} was caught by {harness}, which is not proved without it")
+            }
             Self::Drawn(run, count) => write!(f, "{run} of {count} drawn mistakes ran on these sources"),
             Self::Unexplained(name) => write!(f, "SURVIVED, not explained: {name}"),
             Self::Idle(name) => write!(f, "explained, and does not survive: {name}"),
@@ -49,11 +55,17 @@ pub(super) const fn word(outcome: &Outcome) -> &'static str {
     }
 }
 
-/// Compares list and record with the sources at `root`, whose digest is `sources`.
+/// Compares list and record with the sources at `root`, whose digest is `sources`, and of which the harnesses `proved` are.
 ///
 /// # Errors
 /// A mistake does not fit its file.
-pub fn check(list: &List, record: &Record, root: &Path, sources: &str) -> Result<Vec<Finding>, ProveError> {
+pub fn check(
+    list: &List,
+    record: &Record,
+    root: &Path,
+    sources: &str,
+    proved: &BTreeSet<String>,
+) -> Result<Vec<Finding>, ProveError> {
     let changed = |mistake: &Mistake| mistake.change(root).map(|change| change.digest());
     let (mut findings, mut stale) = (Vec::new(), 0_usize);
     for mistake in list.mistake.iter().filter(|mistake| mistake.survives.is_none()) {
@@ -63,28 +75,32 @@ pub fn check(list: &List, record: &Record, root: &Path, sources: &str) -> Result
             Some(entry) if entry.sources != sources || entry.change != changed(mistake)? => {
                 stale = stale.saturating_add(1);
             }
-            Some(entry) => findings.extend(of(mistake, entry)),
+            Some(entry) => findings.extend(of(mistake, entry, proved)),
         }
     }
     if stale > 0 {
         findings.push(Finding::Stale(stale));
     }
-    findings.extend(drawn(list, record, sources));
+    findings.extend(drawn(list, record, sources, proved));
     Ok(findings)
 }
 
-fn of(mistake: &Mistake, entry: &Entry) -> Option<Finding> {
+fn of(mistake: &Mistake, entry: &Entry, proved: &BTreeSet<String>) -> Option<Finding> {
     let name = mistake.name.clone();
     match &entry.outcome {
-        Outcome::Caught { harness, .. } if mistake.harness.contains(harness) => None,
-        Outcome::Caught { harness, .. } => Some(Finding::ByAnother(name, harness.clone())),
+        Outcome::Caught { harness, .. } if !mistake.harness.contains(harness) => {
+            Some(Finding::ByAnother(name, harness.clone()))
+        }
+        Outcome::Caught { harness, .. } => {
+            (!proved.contains(harness)).then(|| Finding::ByUnproved(name, harness.clone()))
+        }
         outcome @ (Outcome::Survived | Outcome::Undecided | Outcome::DoesNotCompile { .. }) => {
             Some(Finding::NotCaught(name, outcome.clone()))
         }
     }
 }
 
-fn drawn(list: &List, record: &Record, sources: &str) -> Vec<Finding> {
+fn drawn(list: &List, record: &Record, sources: &str, proved: &BTreeSet<String>) -> Vec<Finding> {
     let is_current = |entry: &&Entry| entry.sources == sources && record.drawn.seed == list.drawn.seed;
     let run: Vec<&Entry> = record.drawn.mistakes.iter().filter(is_current).collect();
     let survives = |name: &str| run.iter().any(|entry| entry.name == name && !entry.outcome.is_caught());
@@ -94,6 +110,12 @@ fn drawn(list: &List, record: &Record, sources: &str) -> Vec<Finding> {
     if count < list.drawn.count {
         findings.push(Finding::Drawn(count, list.drawn.count));
     }
+    findings.extend(real.clone().filter_map(|entry| match &entry.outcome {
+        Outcome::Caught { harness, .. } if !proved.contains(harness) => {
+            Some(Finding::ByUnproved(entry.name.clone(), harness.clone()))
+        }
+        Outcome::Caught { .. } | Outcome::Survived | Outcome::Undecided | Outcome::DoesNotCompile { .. } => None,
+    }));
     let explained = |name: &str| list.explained.iter().any(|explained| explained.mutation == name);
     let open = real.filter(|entry| !entry.outcome.is_caught() && !explained(&entry.name));
     findings.extend(open.map(|entry| Finding::Unexplained(entry.name.clone())));
@@ -108,7 +130,7 @@ fn drawn(list: &List, record: &Record, sources: &str) -> Vec<Finding> {
 mod tests {
     use std::path::Path;
 
-    use super::{Finding, check};
+    use super::{BTreeSet, Finding, check};
     use crate::mistakes::{Drawn, Entry, Explained, List, Mistake, Outcome, Record};
 
     const FILE: &str = "supervisor/core/src/seat.rs";
@@ -151,7 +173,8 @@ mod tests {
     }
 
     fn findings(list: &List, record: &Record, sources: &str) -> Vec<Finding> {
-        check(list, record, root(), sources).unwrap_or_else(|error| unreachable!("{error}"))
+        let proved = ["h", "another"].map(str::to_owned).into();
+        check(list, record, root(), sources, &proved).unwrap_or_else(|error| unreachable!("{error}"))
     }
 
     fn record(list: &List, named: Outcome, drawn: Outcome) -> Record {
@@ -190,6 +213,16 @@ mod tests {
             mistake.replace.push_str("\n    const B: u8 = 0;");
         }
         assert_eq!(findings(&list, &full, "now"), [Finding::Stale(1)]);
+    }
+
+    #[test]
+    fn a_catch_by_what_is_not_proved_is_none() {
+        let list = list();
+        let full = record(&list, caught("h"), caught("h"));
+        let found =
+            check(&list, &full, root(), "now", &BTreeSet::new()).unwrap_or_else(|error| unreachable!("{error}"));
+        let by = |name: &str| Finding::ByUnproved(name.to_owned(), "h".to_owned());
+        assert_eq!(found, [by("m"), by("m")]);
     }
 
     #[test]

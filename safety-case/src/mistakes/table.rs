@@ -1,5 +1,7 @@
 //! The score and its table, in Markdown.
 
+use std::collections::BTreeSet;
+
 use super::check::word;
 use super::list::List;
 use super::record::{Entry, Outcome, Record};
@@ -16,9 +18,12 @@ struct Score {
 }
 
 impl Score {
-    fn of<'a>(entries: impl Iterator<Item = &'a Entry> + Clone) -> Self {
+    /// A catch counts where its harness is proved without the mistake.
+    fn of<'a>(entries: impl Iterator<Item = &'a Entry> + Clone, proved: &BTreeSet<String>) -> Self {
         let real = entries.filter(|entry| entry.outcome.is_mistake());
-        let caught = real.clone().filter(|entry| entry.outcome.is_caught()).count();
+        let counts =
+            |entry: &&Entry| matches!(&entry.outcome, Outcome::Caught { harness, .. } if proved.contains(harness));
+        let caught = real.clone().filter(counts).count();
         Self { caught, of: real.count() }
     }
 }
@@ -27,10 +32,10 @@ impl Score {
 ///
 /// Only what ran on the sources with this digest counts.
 #[must_use]
-pub fn block(list: &List, record: &Record, sources: &str) -> String {
+pub fn block(list: &List, record: &Record, sources: &str, proved: &BTreeSet<String>) -> String {
     let mut lines = vec![BEGIN.to_owned()];
     let named: Vec<&Entry> = record.named.iter().filter(|entry| entry.sources == sources).collect();
-    let score = Score::of(named.iter().copied());
+    let score = Score::of(named.iter().copied(), proved);
     let known = list.mistake.iter().filter(|mistake| mistake.survives.is_some()).count();
     lines.push(format!(
         "{} of {} named mistakes are caught by a proof alone, without any test{}.",
@@ -46,18 +51,18 @@ pub fn block(list: &List, record: &Record, sources: &str) -> String {
         let (by, seconds) = match (entry, &mistake.survives) {
             (_, Some(why)) => (format!("**survives**: {why}"), String::new()),
             (None, None) => ("**not run on these sources**".to_owned(), String::new()),
-            (Some(entry), None) => (by(&entry.outcome), entry.seconds.to_string()),
+            (Some(entry), None) => (by(&entry.outcome, proved), entry.seconds.to_string()),
         };
         lines.push(format!("| `{}` | {} | {by} | {seconds} |", mistake.name, cell(&mistake.what)));
     }
-    drawn(list, record, sources, &mut lines);
+    drawn(list, record, sources, proved, &mut lines);
     lines.push(END.to_owned());
     lines.join("\n")
 }
 
-fn drawn(list: &List, record: &Record, sources: &str, lines: &mut Vec<String>) {
+fn drawn(list: &List, record: &Record, sources: &str, proved: &BTreeSet<String>, lines: &mut Vec<String>) {
     let run: Vec<&Entry> = record.drawn.mistakes.iter().filter(|entry| entry.sources == sources).collect();
-    let score = Score::of(run.iter().copied());
+    let score = Score::of(run.iter().copied(), proved);
     lines.push(String::new());
     if score.of == 0 {
         lines.push("Drawn mistakes: **not run on these sources**.".to_owned());
@@ -87,8 +92,9 @@ fn drawn(list: &List, record: &Record, sources: &str, lines: &mut Vec<String>) {
     }
 }
 
-fn by(outcome: &Outcome) -> String {
+fn by(outcome: &Outcome, proved: &BTreeSet<String>) -> String {
     match outcome {
+        Outcome::Caught { harness, .. } if !proved.contains(harness) => format!("`{harness}`, **itself not proved**"),
         Outcome::Caught { harness, .. } => format!("`{harness}`"),
         other @ (Outcome::Survived | Outcome::Undecided | Outcome::DoesNotCompile { .. }) => {
             format!("**{}**", word(other))
@@ -152,7 +158,8 @@ mod tests {
             entry("c", caught(), "now"),
             entry("d", Outcome::DoesNotCompile { error }, "now"),
         ];
-        let text = block(&list, &record, "now");
+        let proved = std::collections::BTreeSet::from(["seat_5".to_owned()]);
+        let text = block(&list, &record, "now", &proved);
         for part in [
             "1 of 3 named mistakes are caught by a proof alone, without any test; 1 survive, and are known to.",
             "| `one` | It rolls \\| away. | `seat_5` | 9 |",
@@ -164,7 +171,12 @@ mod tests {
         ] {
             assert!(text.contains(part), "{part}:\n{text}");
         }
-        assert!(block(&list, &record, "later").contains("0 of 3"));
+        assert!(block(&list, &record, "later", &proved).contains("0 of 3"));
+        let unproved = block(&list, &record, "now", &std::collections::BTreeSet::new());
+        assert!(
+            unproved.contains("0 of 3") && unproved.contains("| `seat_5`, **itself not proved** | 9 |"),
+            "{unproved}"
+        );
         let page = format!("head\n{BEGIN}\nold\n{END}\ntail");
         assert_eq!(replaced(&page, &text), Some(format!("head\n{text}\ntail")));
         assert_eq!(replaced("nothing", &text), None);

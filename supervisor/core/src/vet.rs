@@ -336,10 +336,10 @@ pub fn vet_contactors(envelope: &Envelope, torque: Percent, command: Command<Con
     let (k1_out, k1_cause) = contactor(envelope.k1, wanted.k1);
     let out = Contactors { k4: k4_out, k1: k1_out };
     // CMD-3b: the vector is blocked only if neither moves.
-    let cause = k4_cause.or(k1_cause).map(|cause| match cause.kind {
-        Kind::Block if out != Contactors::NEUTRAL => Verdict { kind: Kind::Limit, ..cause },
-        _ => cause,
-    });
+    let mut cause = k4_cause.or(k1_cause);
+    if let Some(cause) = cause.as_mut().filter(|cause| cause.kind == Kind::Block && out != Contactors::NEUTRAL) {
+        cause.kind = Kind::Limit;
+    }
     (out, judge(usable, &out, &Contactors::NEUTRAL, Verdict::PASS, cause))
 }
 
