@@ -43,6 +43,14 @@ impl Around {
             ..Self::new()
         }
     }
+    /// The time-outs of the envelope are those of the configuration, as `e2e_1g_timeouts_as_configured` proves of `decide`.
+    pub(super) fn timed() -> Self {
+        let mut around = Self::new();
+        around.config.timeout_50 = around.envelope.timeouts.ms50;
+        around.config.timeout_100 = around.envelope.timeouts.ms100;
+        around.config.timeout_200 = around.envelope.timeouts.ms200;
+        around
+    }
     /// For properties that read nothing but the envelope and the commands.
     fn new() -> Self {
         Self {

@@ -5,13 +5,12 @@ use supervisor_core::{Outputs, Percent, vet_steering, vet_warnings};
 use super::Any;
 use super::channels::Around;
 use crate::properties::steering::{
-    cmd_3_steering_counts_from_our_last_output, str_1_angle_is_exactly_bounded, str_1_angle_stays_in_range,
-    str_1_bounds_exactly, str_1_overlay_below_takeover, str_1_rate_and_bar_never_widened, str_2_asked_for_anew,
-    str_2_end_is_shown, str_2_idle_commands_nothing, str_2_overlay_fades, str_2_permitted_exactly, str_2_takeover_ends,
-    str_2_weight_fades,
+    cmd_3_steering_counts_from_our_last_output, str_1_angle_stays_in_range, str_1_bounds_exactly,
+    str_1_goes_out_within_its_bounds, str_2_asked_for_anew, str_2_end_is_shown, str_2_fades_exactly,
+    str_2_permitted_exactly, str_2_takeover_ends,
 };
 
-/// STR-1, STR-2, SELF-5g: when it may act, and its bounds, exactly.
+/// STR-1, STR-2a, STR-2e to STR-2h, SELF-5g: when it may act, and how far it may turn, exactly.
 #[kani::proof]
 #[kani::unwind(17)]
 #[kani::stub(supervisor_core::kernel::portion, crate::harness::uninterpreted::portion)]
@@ -28,29 +27,32 @@ fn str_1_bounds_of_the_steering() {
     kani::cover!(acts && any.inputs.wheel_speed.known().is_none(), "without a speed");
 }
 
-/// STR-1, STR-2, SELF-5g, E2E-2i: how it begins and ends, and how far it turns meanwhile: of any feasible envelope whose bounds are
-/// exact (`str_1_bounds_of_the_steering`). Everything around it is any.
+/// STR-1e, STR-2c, STR-2d, SELF-5g: what fades.
 #[kani::proof]
 #[kani::unwind(17)]
 #[kani::stub(supervisor_core::kernel::portion, crate::harness::uninterpreted::portion)]
 #[kani::stub(supervisor_core::kernel::share_down, crate::harness::uninterpreted::share_down)]
 #[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent)]
-fn str_1_steering_is_exactly_bounded() {
-    let around = Around::any();
+fn str_2_fades_of_the_steering() {
+    let any = Any::new();
+    let outputs = kani::any();
+    assert!(str_2_fades_exactly(&any.cycle(&outputs)));
+    let bound = &any.decided.envelope.steering;
+    kani::cover!(bound.weight_least > Percent::ZERO && bound.overlay_neutral.raw() < 0, "it fades out");
+}
+
+/// STR-1, STR-2, SELF-5g, E2E-2i: what goes out, exactly, of any feasible envelope. Put together with its bounds
+/// (`str_1_bounds_of_the_steering`, `str_2_fades_of_the_steering`) this is all that goes out.
+#[kani::proof]
+fn str_1_steering_up_to_its_bounds() {
+    let around = Around::timed();
     let steering = vet_steering(&around.envelope, around.commands.steering).0;
     let outputs = Outputs { steering, ..kani::any() };
     let cycle = around.cycle(&outputs);
-    kani::assume(str_1_bounds_exactly(&cycle));
-    assert!(str_1_angle_is_exactly_bounded(&cycle));
-    assert!(str_1_rate_and_bar_never_widened(&cycle));
-    assert!(str_1_overlay_below_takeover(&cycle));
-    assert!(str_2_overlay_fades(&cycle));
-    assert!(str_2_weight_fades(&cycle));
-    assert!(str_2_idle_commands_nothing(&cycle));
-    let (before, acts) = (&cycle.old.steering, steering.weight > Percent::ZERO);
-    kani::cover!(before.weight == Percent::ZERO && acts, "it begins");
-    kani::cover!(before.weight > steering.weight && acts, "it fades out");
-    kani::cover!(acts && steering.angle != before.angle, "the wheel turns");
+    assert!(str_1_goes_out_within_its_bounds(&cycle));
+    let (bound, acts) = (&around.envelope.steering, steering.weight > Percent::ZERO);
+    kani::cover!(acts && steering.angle == bound.angle_most, "the wheel turns as far as it may");
+    kani::cover!(acts && bound.enable.is_err(), "it fades out");
     kani::cover!(!steering.enable && steering.angle.raw() > 0, "idle fields pass");
 }
 

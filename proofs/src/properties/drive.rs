@@ -21,6 +21,7 @@ pub const ALL: &[Property] = all![
     trq_5_release_after_leave,
     trq_5e_no_torque_until_released,
     trq_1_bounds_exactly,
+    self_11_torque_up_to_its_bound,
     trq_6_hill_hold,
     trq_6_hill_hold_counts_real_time,
     self_11_torque_is_exactly_bounded,
@@ -193,10 +194,15 @@ pub fn trq_6_hill_hold_counts_real_time(cycle: &Cycle<'_>) -> bool {
 
 /// TRQ-6c: the confirmed gear is D or R, and no other one goes out.
 fn in_gear(cycle: &Cycle<'_>) -> bool {
+    steady(cycle, cycle.inputs.gear.known()) && matches!(cycle.inputs.gear.known(), Some(Gear::Drive | Gear::Reverse))
+}
+
+/// TRQ-6c: no other gear goes out than the confirmed one.
+fn steady(cycle: &Cycle<'_>, confirmed: Option<Gear>) -> bool {
     match cycle.outputs.gear {
-        GearRequest::Hold => cycle.inputs.gear.is(Gear::Drive) || cycle.inputs.gear.is(Gear::Reverse),
-        GearRequest::Drive => cycle.inputs.gear.is(Gear::Drive),
-        GearRequest::Reverse => cycle.inputs.gear.is(Gear::Reverse),
+        GearRequest::Hold => true,
+        GearRequest::Drive => confirmed == Some(Gear::Drive),
+        GearRequest::Reverse => confirmed == Some(Gear::Reverse),
         GearRequest::Neutral | GearRequest::Park => false,
     }
 }
@@ -245,11 +251,11 @@ pub fn trq_1_bounds_exactly(cycle: &Cycle<'_>) -> bool {
         && timeouts.ms100 == cycle.config.timeout_100
 }
 
-/// The most of what is asked for that may go out.
-fn most(cycle: &Cycle<'_>, asked: DriveTorque) -> u8 {
-    let [driver, adas, epbi] = bounds(cycle);
+/// The most of what is asked for that may go out, given the bounds, the idle torque, and whether it may act against the brake; while
+/// the gear is steady.
+fn most(cycle: &Cycle<'_>, asked: DriveTorque, [driver, adas, epbi]: [u8; 3], idle: Percent, hill_hold: bool) -> u8 {
     let by_driver = asked.origin == Origin::Driver;
-    if !in_gear(cycle) || (brakes(cycle) && !(by_driver && holds_on_hill(cycle))) {
+    if brakes(cycle) && !(by_driver && hill_hold) {
         return 0;
     }
     let granted = asked.active && cycle.outputs.mode == DrivingMode::Automated;
@@ -257,21 +263,38 @@ fn most(cycle: &Cycle<'_>, asked: DriveTorque) -> u8 {
         Origin::Driver => driver,
         Origin::Adas if granted => adas,
         // TRQ-5f: below the idle torque there is none.
-        Origin::Epbi if granted && epbi.min(asked.torque.raw()) >= cycle.config.idle_torque.raw() => epbi,
+        Origin::Epbi if granted && epbi.min(asked.torque.raw()) >= idle.raw() => epbi,
         Origin::Adas | Origin::Epbi => 0,
     }
 }
 
-/// SELF-11a, TRQ-1a to TRQ-1c, TRQ-2a to TRQ-2e, TRQ-3a, TRQ-4f, TRQ-5a to TRQ-5g, TRQ-6a to TRQ-6c, VLC-1a, VLC-1c,
-/// VLC-1d, SEAT-6b: what goes out is what is asked for, up to exactly what the requirements allow: nothing more, and
-/// nothing less, were it 1 %. Who may have none keeps no active flag either, but for coasting in the automated mode.
-#[must_use]
-pub fn self_11_torque_is_exactly_bounded(cycle: &Cycle<'_>) -> bool {
-    let asked = asked(cycle).unwrap_or(DriveTorque::NEUTRAL);
-    let torque = Percent::new(asked.torque.raw().min(most(cycle, asked)));
+/// Whether what goes out is what is asked for, up to `most`. Who may have none keeps no active flag either, but for coasting in the
+/// automated mode.
+fn goes_out_up_to(cycle: &Cycle<'_>, asked: DriveTorque, most: u8) -> bool {
+    let torque = Percent::new(asked.torque.raw().min(most));
     let coasts = asked.torque == Percent::ZERO && cycle.outputs.mode == DrivingMode::Automated;
     let keeps = asked.origin == Origin::Driver || torque > Percent::ZERO || coasts;
     cycle.outputs.drive == (if keeps { DriveTorque { torque, ..asked } } else { DriveTorque::NEUTRAL })
+}
+
+/// SELF-11a, TRQ-5f, TRQ-6a, TRQ-6c: what goes out is what is asked for, up to exactly the bound of whoever asks, in the mode and the
+/// gear that go out and beside the deceleration that does.
+#[must_use]
+pub fn self_11_torque_up_to_its_bound(cycle: &Cycle<'_>) -> bool {
+    let (bound, asked) = (&cycle.envelope.torque, asked(cycle).unwrap_or(DriveTorque::NEUTRAL));
+    let bounds = [bound.driver, bound.automated, bound.epbi].map(|bound| bound.most.raw());
+    let most = most(cycle, asked, bounds, bound.idle, bound.hill_hold);
+    goes_out_up_to(cycle, asked, if steady(cycle, cycle.envelope.gear.confirmed) { most } else { 0 })
+}
+
+/// SELF-11a, TRQ-1a to TRQ-1c, TRQ-2a to TRQ-2e, TRQ-3a, TRQ-4f, TRQ-5a to TRQ-5g, TRQ-6a to TRQ-6c, VLC-1a, VLC-1c,
+/// VLC-1d, SEAT-6b: what goes out is what is asked for, up to exactly what the requirements allow: nothing more, and
+/// nothing less, were it 1 %: [`trq_1_bounds_exactly`] put into [`self_11_torque_up_to_its_bound`].
+#[must_use]
+pub fn self_11_torque_is_exactly_bounded(cycle: &Cycle<'_>) -> bool {
+    let asked = asked(cycle).unwrap_or(DriveTorque::NEUTRAL);
+    let most = most(cycle, asked, bounds(cycle), cycle.config.idle_torque, holds_on_hill(cycle));
+    goes_out_up_to(cycle, asked, if in_gear(cycle) { most } else { 0 })
 }
 
 /// E2E-2a, E2E-2b: without a usable command there is no torque, and the gear is held, but for an obliged neutral

@@ -11,6 +11,7 @@ pub const ALL: &[Property] = all![
     trq_4_override_suspends,
     trq_4_never_against_an_obligation,
     mode_1_permission_exactly,
+    mode_1_goes_out_within_its_bounds,
     mode_1_begins_only_by_the_driver,
     mode_1_set_is_new_evidence,
     mode_1_follows_what_went_out,
@@ -111,6 +112,17 @@ pub fn mode_1_permission_exactly(cycle: &Cycle<'_>) -> bool {
     cycle.envelope.automated.is_ok() == may_be_automated(cycle)
         && cycle.envelope.target_speed.most == target_speed(cycle)
         && cycle.envelope.timeouts.ms200 == cycle.config.timeout_200
+}
+
+/// MODE-1a, SELF-11k, SPD-1a, SELF-11f: *automated* goes out exactly when it is asked for and permitted; and beside it the target speed
+/// that is asked for, up to its bound.
+#[must_use]
+pub fn mode_1_goes_out_within_its_bounds(cycle: &Cycle<'_>) -> bool {
+    let asked = cycle.commands.mode.usable(cycle.config.timeout_200) == Ok(DrivingMode::Automated);
+    let speed = cycle.commands.target_speed.usable(cycle.config.timeout_50).unwrap_or(SpeedKmhQ8::ZERO);
+    let automated = cycle.outputs.mode == DrivingMode::Automated;
+    let most = if automated { cycle.envelope.target_speed.most } else { SpeedKmhQ8::ZERO };
+    automated == (asked && cycle.envelope.automated.is_ok()) && cycle.outputs.target_speed == speed.min(most)
 }
 
 /// MODE-1a to MODE-1c, SELF-11k: *automated* goes out exactly when it is asked for, nothing speaks against it, and it

@@ -9,6 +9,8 @@ use super::{Cycle, Property, all, implies};
 pub const ALL: &[Property] = all![
     str_2_permitted_exactly,
     str_1_bounds_exactly,
+    str_2_fades_exactly,
+    str_1_goes_out_within_its_bounds,
     str_1_angle_is_exactly_bounded,
     str_1_angle_stays_in_range,
     str_1_rate_and_bar_never_widened,
@@ -75,11 +77,11 @@ fn reach(cycle: &Cycle<'_>) -> i32 {
 /// measured angle allow; outside of that window it goes back to it as fast as the rate permits, and never jumps.
 fn angles(cycle: &Cycle<'_>) -> (i32, i32) {
     let limit = cycle.config.steering_angle.0.get(row(cycle)).map_or(0, |angle| i32::from(angle.raw()));
-    let measured = steering_angle(cycle).map_or(start(cycle), i32::from);
     let deviation = i32::from(cycle.config.steering_deviation.raw()).max(0);
+    let (start, reach) = (start(cycle), reach(cycle));
+    let measured = steering_angle(cycle).map_or(start, i32::from);
     let within = |angle: i32, least: i32, most: i32| angle.max(least).min(most);
-    let reachable =
-        |angle| within(within(angle, -limit, limit), start(cycle) - reach(cycle), start(cycle) + reach(cycle));
+    let reachable = |angle| within(within(angle, -limit, limit), start - reach, start + reach);
     (reachable(measured - deviation), reachable(measured + deviation))
 }
 
@@ -94,10 +96,8 @@ fn fade(cycle: &Cycle<'_>, outwards: bool) -> u8 {
 /// The overlay torques that are permitted: what the fade leaves and allows either way from the last one.
 fn overlays(cycle: &Cycle<'_>) -> (i32, i32) {
     let full = i32::from(cycle.config.steering_overlay.raw()).max(0);
-    let step = |outwards| {
-        let whole = u16::try_from(full).unwrap_or(0);
-        i32::from(kernel::share_down(whole, fade(cycle, outwards)).min(32_767))
-    };
+    let whole = u16::try_from(full).unwrap_or(0);
+    let step = |outwards| i32::from(kernel::share_down(whole, fade(cycle, outwards)).min(32_767));
     let before = i32::from(cycle.old.steering.overlay.raw()).max(-full).min(full);
     // Towards 0 it fades out, away from 0 in.
     let (down, up) = (step(before > 0), step(before < 0));
@@ -110,20 +110,59 @@ fn weights(cycle: &Cycle<'_>) -> (u8, u8) {
     (before.saturating_sub(fade(cycle, true)), before.saturating_add(fade(cycle, false)).min(100))
 }
 
-/// STR-1b to STR-1g, STR-2c, STR-2d, SELF-5g, SELF-11e, CMD-3f: the bounds of automatic steering are exactly what the requirements
-/// leave; what it falls back to is where it is, as far as they permit that, without a torque.
+/// STR-1b to STR-1d, STR-1f, STR-1g, SELF-11e, CMD-3f: the bounds of the angle, its rate and the bar torque are exactly what the
+/// requirements leave; what it falls back to is where it is, as far as they permit that.
 #[must_use]
 pub fn str_1_bounds_exactly(cycle: &Cycle<'_>) -> bool {
     let (bound, config) = (&cycle.envelope.steering, cycle.config);
-    let ((least, most), (overlay_least, overlay_most)) = (angles(cycle), overlays(cycle));
+    let (least, most) = angles(cycle);
     let angles = [bound.angle_least, bound.angle_most, bound.angle_neutral].map(|angle| i32::from(angle.raw()));
-    let overlays = [bound.overlay_least, bound.overlay_most, bound.overlay_neutral];
     angles == [least, most, start(cycle).max(least).min(most)]
-        && overlays.map(|torque| i32::from(torque.raw()))
-            == [overlay_least, overlay_most, 0.max(overlay_least).min(overlay_most)]
-        && (bound.weight_least.raw(), bound.weight_most.raw()) == weights(cycle)
         && (bound.range, bound.rate, bound.bar) == (config.steering_range, rate(cycle), config.steering_bar)
         && cycle.envelope.timeouts.ms50 == config.timeout_50
+}
+
+/// STR-1e, STR-2c, STR-2d, SELF-5g: so are those of what fades: overlay torque and weight.
+#[must_use]
+pub fn str_2_fades_exactly(cycle: &Cycle<'_>) -> bool {
+    let (bound, (least, most)) = (&cycle.envelope.steering, overlays(cycle));
+    let overlays = [bound.overlay_least, bound.overlay_most, bound.overlay_neutral];
+    overlays.map(|torque| i32::from(torque.raw())) == [least, most, 0.max(least).min(most)]
+        && (bound.weight_least.raw(), bound.weight_most.raw()) == weights(cycle)
+}
+
+/// STR-1b to STR-1g, STR-2c, STR-2d, STR-2f, SELF-5g, SELF-11e, E2E-2i: what goes out is what is asked for, each field the nearest inside
+/// its bound; not permitted, not asked for or lost, it stays where it is and fades out. What neither acts nor asks for anything
+/// passes with its idle fields, in range, or is nothing.
+#[must_use]
+pub fn str_1_goes_out_within_its_bounds(cycle: &Cycle<'_>) -> bool {
+    let (bound, out) = (&cycle.envelope.steering, cycle.outputs.steering);
+    if let Some(asked) = granted(cycle) {
+        return out
+            == Steering {
+                enable: true,
+                angle: asked.angle.max(bound.angle_least).min(bound.angle_most),
+                rate: asked.rate.min(bound.rate),
+                overlay: asked.overlay.max(bound.overlay_least).min(bound.overlay_most),
+                weight: asked.weight.max(bound.weight_least).min(bound.weight_most),
+                bar_limit: asked.bar_limit.min(bound.bar),
+            };
+    }
+    let fading = Steering {
+        enable: bound.weight_least > Percent::ZERO,
+        angle: bound.angle_neutral,
+        rate: RateDeciDegS::ZERO,
+        overlay: bound.overlay_neutral,
+        weight: bound.weight_least,
+        bar_limit: bound.bar,
+    };
+    let idle = !fading.enable && fading.overlay.raw() == 0;
+    let passes = |asked: &Steering| {
+        let asks_nothing = !asked.enable && asked.weight == Percent::ZERO && asked.overlay.raw() == 0;
+        let in_range = asked.angle.raw().unsigned_abs() <= bound.range.raw().unsigned_abs();
+        asks_nothing && in_range && asked.rate <= bound.rate && asked.bar_limit <= bound.bar
+    };
+    out == if idle { asked(cycle).filter(passes).unwrap_or(Steering::NEUTRAL) } else { fading }
 }
 
 /// STR-2a, STR-2e, STR-2g, STR-2h, SELF-5g: automatic steering is permitted exactly outside of the safe state, not
