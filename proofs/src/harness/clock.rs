@@ -13,8 +13,6 @@ use crate::properties::supervisor::self_7_latches_exactly;
 #[kani::proof]
 #[kani::unwind(17)]
 #[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent)]
-#[kani::stub(supervisor_core::kernel::portion, crate::harness::uninterpreted::portion)]
-#[kani::stub(supervisor_core::kernel::between_down, crate::harness::uninterpreted::between_down)]
 fn self_3_clock_and_latches() {
     let any = Any::new();
     let outputs = Outputs { mode: vet_mode(&any.decided.envelope, any.commands.mode).0, ..kani::any() };

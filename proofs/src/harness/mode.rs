@@ -8,7 +8,6 @@ use crate::properties::mode::{mode_1_ends_exactly_for_a_reason, mode_1_permissio
 /// MODE-1, TRQ-3c, TRQ-4, SPD-1: when the mode may begin, is suspended and ends, exactly; and the bound of the target speed.
 #[kani::proof]
 #[kani::unwind(17)]
-#[kani::stub(supervisor_core::kernel::portion, crate::harness::uninterpreted::portion)]
 #[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent)]
 fn mode_1_begins_is_suspended_and_ends() {
     let any = Any::new();

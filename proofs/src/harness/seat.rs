@@ -37,8 +37,6 @@ fn seat_1_leave_exactly() {
 #[kani::proof]
 #[kani::unwind(17)]
 #[kani::stub(supervisor_core::kernel::within_percent, crate::harness::uninterpreted::within_percent)]
-#[kani::stub(supervisor_core::kernel::portion, crate::harness::uninterpreted::portion)]
-#[kani::stub(supervisor_core::kernel::between_down, crate::harness::uninterpreted::between_down)]
 fn seat_9_return_and_permissions() {
     let any = Any::new();
     let (envelope, commands) = (&any.decided.envelope, &any.commands);
