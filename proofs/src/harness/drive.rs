@@ -46,7 +46,7 @@ fn driven(around: &Around) -> Outputs {
 
 /// SELF-11a, TRQ-5f, TRQ-6a, TRQ-6c, E2E-2a, E2E-2b, MODE-1a, SPD-1a: torque, mode and target speed go out exactly as they are asked
 /// for, up to their bounds, of any feasible envelope. Put together with the bounds (`trq_1_bounds_of_the_torque`,
-/// `mode_1_begins_is_suspended_and_ends`) this is all that goes out.
+/// `mode_1_may_begin`) this is all that goes out.
 #[kani::proof]
 #[kani::unwind(17)]
 #[kani::stub(supervisor_core::kernel::together, crate::harness::uninterpreted::together)]

@@ -154,6 +154,7 @@ fn e2e_1_link_of_ours() {
 
 /// E2E-1e, E2E-1f, E2E-1i: the two bare messages.
 #[kani::proof]
+#[kani::unwind(48)]
 fn e2e_1_bare() {
     let (old, frame) = (kani::any(), kani::any());
     let link: Link = kani::any();

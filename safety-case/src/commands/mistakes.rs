@@ -8,7 +8,7 @@ use super::{FINDINGS, NOT_RUN, Outcome, print};
 use crate::cli::Mistakes;
 use crate::mistakes;
 use crate::mistakes::{Kani, List, Record, Request, Shard, block, check, replaced, run as plant};
-use crate::prove::{self, Place, Present, RECORD, State};
+use crate::prove::{self, Place, Present, RECORD, Sources, State};
 
 pub(super) fn run(arguments: &Mistakes) -> Outcome {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().ok_or("the workspace has no folder")?;
@@ -53,8 +53,8 @@ fn missing(arguments: &Mistakes) -> Option<&'static str> {
 
 /// What the record shows on the present sources, and what it does not.
 fn show(root: &Path, arguments: &Mistakes) -> Outcome {
-    let (list, record, sources) = (List::load(root)?, Record::load(root)?, prove::sources_digest(root)?);
-    let proved = proved(root, &sources)?;
+    let (list, record, sources) = (List::load(root)?, Record::load(root)?, Sources::load(root)?);
+    let (proved, sources) = (proved(root, &sources)?, sources.whole);
     let block = block(&list, &record, &sources, &proved);
     for line in block.lines().filter(|line| line.contains(" named mistakes are ") || line.starts_with("Of ")) {
         print(format_args!("{line}\n"))?;
@@ -72,9 +72,9 @@ fn show(root: &Path, arguments: &Mistakes) -> Outcome {
 }
 
 /// The harnesses that are proved on the sources without any mistake.
-fn proved(root: &Path, sources: &str) -> Result<BTreeSet<String>, prove::ProveError> {
+fn proved(root: &Path, sources: &Sources) -> Result<BTreeSet<String>, prove::ProveError> {
     let (harnesses, record) = (prove::List::load(root)?, prove::Record::load(&root.join(RECORD))?);
-    let present = Present { sources: sources.to_owned(), configuration: prove::default_configuration()? };
+    let present = Present { sources: sources.clone(), configuration: prove::default_configuration()? };
     let place = Place::committed(root);
     let proved = harnesses.harness.iter().filter(|of| State::of(of, &record, &place, &present).is_proved());
     Ok(proved.map(|harness| harness.name.clone()).collect())

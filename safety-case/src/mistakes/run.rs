@@ -12,7 +12,7 @@ use super::drawn::{draw, listed};
 use super::list::List;
 use super::prover::{Prover, judge};
 use super::record::{Entry, Outcome, Record, put};
-use crate::prove::{Harness, List as Harnesses, ProveError, Tools, sources_digest};
+use crate::prove::{Harness, List as Harnesses, ProveError, Sources, Tools};
 
 /// Longest time for a named mistake: each of its harnesses has a limit of its own.
 const NAMED: Duration = Duration::from_secs(3600);
@@ -106,7 +106,7 @@ pub fn run(root: &Path, request: &Request, prover: &impl Prover, say: &mut impl 
         return Err(ProveError::Arguments(findings.join("\n")));
     }
     let mut record = Record::load(root)?;
-    let sources = sources_digest(root)?;
+    let sources = Sources::load(root)?.whole;
     let (tasks, order, wanted) = match request.drawn {
         None => named(root, request, order, &list, &harnesses, &record, &sources)?,
         Some(count) => drawn(root, request, count, &list, &harnesses, &mut record, &sources)?,
@@ -158,7 +158,7 @@ fn work(root: &Path, folder: &Path, queue: &Mutex<Queue>, prover: &impl Prover, 
     while let Some(task) = Queue::next(queue) {
         let started = Instant::now();
         let result = judge(prover, &copy, &task).and_then(|(outcome, tried, tools)| {
-            if sources_digest(root)? != sources {
+            if Sources::load(root)?.whole != sources {
                 return Err(ProveError::Arguments("the sources have changed while this ran".to_owned()));
             }
             let (change, seconds) = (task.change.digest(), started.elapsed().as_secs());

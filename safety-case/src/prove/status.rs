@@ -8,12 +8,13 @@ use super::judge::{Verdict, judge};
 use super::kani::counts;
 use super::raw::Raw;
 use super::record::{Place, Proof, Record};
+use super::sources::Sources;
 
 /// What the present sources and configuration are.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Present {
-    /// Digest of the sources.
-    pub sources: String,
+    /// Digests of the sources.
+    pub sources: Sources,
     /// Digest of the sealed configuration.
     pub configuration: String,
 }
@@ -43,7 +44,7 @@ impl State {
         let Some(proof) = record.of(&harness.name) else { return Self::NotRun };
         // What decided its own checks only does not stand for a harness that is to decide all.
         let less = harness.checks == Checks::All && proof.decides == Checks::Own;
-        if less || proof.sources != present.sources || proof.configuration != present.configuration {
+        if less || proof.sources != present.sources.of(&harness.name) || proof.configuration != present.configuration {
             return Self::Stale(proof.verdict.clone());
         }
         match supported(harness, proof, place) {
@@ -117,7 +118,7 @@ mod tests {
     type Outcome = Result<(), Box<dyn std::error::Error>>;
 
     fn present() -> Present {
-        Present { sources: "s".to_owned(), configuration: "c".to_owned() }
+        Present { sources: Sources::same("s"), configuration: "c".to_owned() }
     }
 
     fn export(status: &str) -> Value {
@@ -144,8 +145,10 @@ mod tests {
         raw.save(&place.results, "a")?;
         assert_eq!(state(&mut record, &raw.digest(), &present()), State::Ran(Verdict::Proved));
         assert!(matches!(state(&mut record, "r", &present()), State::Unsupported(_)), "another digest");
-        let others =
-            [Present { sources: "t".to_owned(), ..present() }, Present { configuration: "d".to_owned(), ..present() }];
+        let others = [
+            Present { sources: Sources::same("t"), ..present() },
+            Present { configuration: "d".to_owned(), ..present() },
+        ];
         for other in others {
             assert_eq!(state(&mut record, &raw.digest(), &other), State::Stale(Verdict::Proved));
         }

@@ -10,7 +10,7 @@ use super::TraceError;
 use super::id::Id;
 use super::scan::{Kind, Place, Scan, Tag};
 use crate::analysis::{Analysis, Method, Requirement};
-use crate::prove::{Harness, List, RECORD, Record, Verdict, sources_digest};
+use crate::prove::{Harness, List, RECORD, Record, Sources, Verdict};
 
 /// The greatest work package that must be complete.
 const LAST_PACKAGE: u8 = 2;
@@ -189,7 +189,7 @@ impl Proofs {
         let text = fs::read_to_string(&path).map_err(|error| TraceError::File { path, error })?;
         let list = List::load(root)?;
         let record = Record::load(&root.join(RECORD))?;
-        let sources = if record.proofs.is_empty() { String::new() } else { sources_digest(root)? };
+        let sources = Sources::load(root)?;
         let listed = list.harness.into_iter().map(|harness| {
             let (proved, words) = verdict(&harness, &record, &sources);
             let line = line_with(&text, &format!("name = \"{}\"", harness.name));
@@ -199,7 +199,7 @@ impl Proofs {
     }
 }
 
-fn verdict(harness: &Harness, record: &Record, sources: &str) -> (bool, String) {
+fn verdict(harness: &Harness, record: &Record, sources: &Sources) -> (bool, String) {
     if let Some(open) = &harness.open {
         return (false, format!("open: {open}"));
     }
@@ -210,7 +210,7 @@ fn verdict(harness: &Harness, record: &Record, sources: &str) -> (bool, String) 
         Verdict::Vacuous(why) => format!("vacuous: {why}"),
         Verdict::Undetermined(why) => format!("undetermined: {why}"),
     };
-    let age = if proof.sources == sources { "" } else { ", on older sources" };
+    let age = if proof.sources == sources.of(&harness.name) { "" } else { ", on older sources" };
     (proof.verdict == Verdict::Proved, words + age)
 }
 

@@ -9,8 +9,8 @@ use std::time::Duration;
 use super::{FINDINGS, NOT_RUN, Outcome, print};
 use crate::cli::Prove;
 use crate::prove::{
-    Harness, List, Options, Place, Present, ProveError, Record, State, available, block, configuration_digest,
-    declared, default_configuration, differences, replaced, sources_digest, table,
+    Harness, List, Options, Place, Present, ProveError, Record, Sources, State, available, block, configuration_digest,
+    declared, default_configuration, differences, replaced, table,
 };
 
 /// Where the table stands.
@@ -68,7 +68,7 @@ impl Gate {
         let mut gate = Self {
             target: target.join("kani"),
             list: List::load(&root)?,
-            present: Present { sources: sources_digest(&root)?, configuration: default_configuration()? },
+            present: Present { sources: Sources::load(&root)?, configuration: default_configuration()? },
             options: Options {
                 solver: arguments.solver,
                 timeout: arguments.timeout.map(Duration::from_secs),

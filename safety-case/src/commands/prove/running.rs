@@ -7,8 +7,8 @@ use std::thread;
 
 use super::{FINDINGS, Gate, Outcome, print};
 use crate::prove::{
-    Harness, Outcome as Ran, Progress, Proof, ProveError, Quick, RECORD, Record, State, Verdict, Workers, compile,
-    differences, named, ordered, playback, quick, shard, sources_digest,
+    Harness, Outcome as Ran, Progress, Proof, ProveError, Quick, RECORD, Record, Sources, State, Verdict, Workers,
+    compile, differences, named, ordered, playback, quick, shard,
 };
 
 impl Gate {
@@ -66,7 +66,7 @@ impl Gate {
         let record = self.record()?;
         print(format_args!("compiling {} harnesses ...\n", self.list.harness.len()))?;
         let mut bad = self.compared(&compile(&self.root, &self.target.join("all"), &self.options)?)?;
-        let Quick { key, drawn, left_out } = quick(&self.list, &record, &self.present.sources, self.jobs);
+        let Quick { key, drawn, left_out } = quick(&self.list, &record, &self.present.sources.whole, self.jobs);
         for (what, harnesses) in
             [("key", &key), ("drawn by the digest of the sources", &drawn), ("left out for time", &left_out)]
         {
@@ -140,7 +140,7 @@ impl Gate {
 
     /// Puts it into the record, with its raw result.
     fn keep(&self, record: &mut Record, harness: &Harness, ran: Ran) -> Result<(), ProveError> {
-        if sources_digest(&self.root)? != self.present.sources {
+        if Sources::load(&self.root)? != self.present.sources {
             return Err(ProveError::Arguments(
                 "the sources changed while the proofs ran: nothing more is recorded".to_owned(),
             ));
@@ -157,7 +157,7 @@ impl Gate {
             solver: ran.solver,
             seconds: ran.seconds,
             tools: ran.tools,
-            sources: self.present.sources.clone(),
+            sources: self.present.sources.of(&harness.name).to_owned(),
             configuration: self.present.configuration.clone(),
             result: ran.raw.digest(),
         };
