@@ -54,7 +54,7 @@ fn missing(arguments: &Mistakes) -> Option<&'static str> {
 /// What the record shows on the present sources, and what it does not.
 fn show(root: &Path, arguments: &Mistakes) -> Outcome {
     let (list, record, sources) = (List::load(root)?, Record::load(root)?, Sources::load(root)?);
-    let (proved, sources) = (proved(root, &sources)?, sources.whole);
+    let proved = proved(root, &sources)?;
     let block = block(&list, &record, &sources, &proved);
     for line in block.lines().filter(|line| line.contains(" named mistakes are ") || line.starts_with("Of ")) {
         print(format_args!("{line}\n"))?;

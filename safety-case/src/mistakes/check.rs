@@ -5,7 +5,7 @@ use std::path::Path;
 
 use super::list::{List, Mistake};
 use super::record::{Entry, Outcome, Record};
-use crate::prove::ProveError;
+use crate::prove::{ProveError, Sources};
 
 /// What the record does not show.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -55,7 +55,7 @@ pub(super) const fn word(outcome: &Outcome) -> &'static str {
     }
 }
 
-/// Compares list and record with the sources at `root`, whose digest is `sources`, and of which the harnesses `proved` are.
+/// Compares list and record with the sources at `root`, of which the harnesses `proved` are.
 ///
 /// # Errors
 /// A mistake does not fit its file.
@@ -63,7 +63,7 @@ pub fn check(
     list: &List,
     record: &Record,
     root: &Path,
-    sources: &str,
+    sources: &Sources,
     proved: &BTreeSet<String>,
 ) -> Result<Vec<Finding>, ProveError> {
     let changed = |mistake: &Mistake| mistake.change(root).map(|change| change.digest());
@@ -72,7 +72,7 @@ pub fn check(
         let name = mistake.name.clone();
         match record.named.iter().find(|entry| entry.name == name) {
             None => findings.push(Finding::NotRun(name)),
-            Some(entry) if entry.sources != sources || entry.change != changed(mistake)? => {
+            Some(entry) if !entry.is_current(sources) || entry.change != changed(mistake)? => {
                 stale = stale.saturating_add(1);
             }
             Some(entry) => findings.extend(of(mistake, entry, proved)),
@@ -100,8 +100,8 @@ fn of(mistake: &Mistake, entry: &Entry, proved: &BTreeSet<String>) -> Option<Fin
     }
 }
 
-fn drawn(list: &List, record: &Record, sources: &str, proved: &BTreeSet<String>) -> Vec<Finding> {
-    let is_current = |entry: &&Entry| entry.sources == sources && record.drawn.seed == list.drawn.seed;
+fn drawn(list: &List, record: &Record, sources: &Sources, proved: &BTreeSet<String>) -> Vec<Finding> {
+    let is_current = |entry: &&Entry| entry.is_current(sources) && record.drawn.seed == list.drawn.seed;
     let run: Vec<&Entry> = record.drawn.mistakes.iter().filter(is_current).collect();
     let survives = |name: &str| run.iter().any(|entry| entry.name == name && !entry.outcome.is_caught());
     let real = run.iter().filter(|entry| entry.outcome.is_mistake());
@@ -130,7 +130,7 @@ fn drawn(list: &List, record: &Record, sources: &str, proved: &BTreeSet<String>)
 mod tests {
     use std::path::Path;
 
-    use super::{BTreeSet, Finding, check};
+    use super::{BTreeSet, Finding, Sources, check};
     use crate::mistakes::{Drawn, Entry, Explained, List, Mistake, Outcome, Record};
 
     const FILE: &str = "supervisor/core/src/seat.rs";
@@ -174,7 +174,7 @@ mod tests {
 
     fn findings(list: &List, record: &Record, sources: &str) -> Vec<Finding> {
         let proved = ["h", "another"].map(str::to_owned).into();
-        check(list, record, root(), sources, &proved).unwrap_or_else(|error| unreachable!("{error}"))
+        check(list, record, root(), &Sources::same(sources), &proved).unwrap_or_else(|error| unreachable!("{error}"))
     }
 
     fn record(list: &List, named: Outcome, drawn: Outcome) -> Record {
@@ -219,8 +219,8 @@ mod tests {
     fn a_catch_by_what_is_not_proved_is_none() {
         let list = list();
         let full = record(&list, caught("h"), caught("h"));
-        let found =
-            check(&list, &full, root(), "now", &BTreeSet::new()).unwrap_or_else(|error| unreachable!("{error}"));
+        let found = check(&list, &full, root(), &Sources::same("now"), &BTreeSet::new())
+            .unwrap_or_else(|error| unreachable!("{error}"));
         let by = |name: &str| Finding::ByUnproved(name.to_owned(), "h".to_owned());
         assert_eq!(found, [by("m"), by("m")]);
     }

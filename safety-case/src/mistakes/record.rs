@@ -5,7 +5,7 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use crate::prove::{ProveError, Tools};
+use crate::prove::{ProveError, Sources, Tools};
 
 /// Where it stands.
 pub const RECORD: &str = "proofs/mistakes.json";
@@ -70,8 +70,16 @@ pub struct Entry {
     pub tried: Vec<Tried>,
     /// How long all of it took, in seconds.
     pub seconds: u64,
-    /// Digest of the sources without the mistake.
+    /// Digest of what the harnesses that were tried speak of, without the mistake.
     pub sources: String,
+}
+
+impl Entry {
+    /// Whether it ran on these sources, as far as the harnesses that were tried speak of them.
+    #[must_use]
+    pub fn is_current(&self, sources: &Sources) -> bool {
+        self.sources == sources.of_all(self.tried.iter().map(|tried| tried.harness.as_str()))
+    }
 }
 
 /// The drawn ones.

@@ -106,7 +106,7 @@ pub fn run(root: &Path, request: &Request, prover: &impl Prover, say: &mut impl 
         return Err(ProveError::Arguments(findings.join("\n")));
     }
     let mut record = Record::load(root)?;
-    let sources = Sources::load(root)?.whole;
+    let sources = Sources::load(root)?;
     let (tasks, order, wanted) = match request.drawn {
         None => named(root, request, order, &list, &harnesses, &record, &sources)?,
         Some(count) => drawn(root, request, count, &list, &harnesses, &mut record, &sources)?,
@@ -120,7 +120,7 @@ pub fn run(root: &Path, request: &Request, prover: &impl Prover, say: &mut impl 
     std::thread::scope(|scope| {
         let (sender, results) = channel();
         for worker in 0..request.jobs.min(total) {
-            let (sender, queue, sources) = (sender.clone(), &queue, sources.as_str());
+            let (sender, queue, sources) = (sender.clone(), &queue, &sources);
             let folder = folder.join(worker.to_string());
             scope.spawn(move || work(root, &folder, queue, prover, sources, &sender));
         }
@@ -150,7 +150,14 @@ pub fn run(root: &Path, request: &Request, prover: &impl Prover, say: &mut impl 
 type Ran = Result<(Entry, Option<Tools>), ProveError>;
 
 /// One worker: its own copy, until nothing is left.
-fn work(root: &Path, folder: &Path, queue: &Mutex<Queue>, prover: &impl Prover, sources: &str, results: &Sender<Ran>) {
+fn work(
+    root: &Path,
+    folder: &Path,
+    queue: &Mutex<Queue>,
+    prover: &impl Prover,
+    sources: &Sources,
+    results: &Sender<Ran>,
+) {
     let copy = match Copy::new(root, folder) {
         Ok(copy) => copy,
         Err(error) => return drop(results.send(Err(error))),
@@ -158,11 +165,12 @@ fn work(root: &Path, folder: &Path, queue: &Mutex<Queue>, prover: &impl Prover, 
     while let Some(task) = Queue::next(queue) {
         let started = Instant::now();
         let result = judge(prover, &copy, &task).and_then(|(outcome, tried, tools)| {
-            if Sources::load(root)?.whole != sources {
+            if Sources::load(root)? != *sources {
                 return Err(ProveError::Arguments("the sources have changed while this ran".to_owned()));
             }
             let (change, seconds) = (task.change.digest(), started.elapsed().as_secs());
-            Ok((Entry { name: task.name, change, outcome, tried, seconds, sources: sources.to_owned() }, tools))
+            let sources = sources.of_all(tried.iter().map(|tried| tried.harness.as_str()));
+            Ok((Entry { name: task.name, change, outcome, tried, seconds, sources }, tools))
         });
         if result.as_ref().is_ok_and(|(entry, _)| !entry.outcome.is_mistake()) {
             Queue::one_more(queue);
@@ -194,7 +202,7 @@ fn named(
     list: &List,
     harnesses: &Harnesses,
     record: &Record,
-    sources: &str,
+    sources: &Sources,
 ) -> Result<Work, ProveError> {
     let chosen = list.mistake.iter().filter(|mistake| mistake.survives.is_none());
     let mut tasks = Vec::new();
@@ -202,7 +210,7 @@ fn named(
         let change = mistake.change(root)?;
         let digest = change.digest();
         let is_current =
-            |entry: &Entry| entry.name == mistake.name && entry.sources == sources && entry.change == digest;
+            |entry: &Entry| entry.name == mistake.name && entry.is_current(sources) && entry.change == digest;
         if request.again || !record.named.iter().any(is_current) {
             let harnesses = chosen_of(harnesses, &mistake.harness);
             let assertion = mistake.assertion.clone().unwrap_or_default();
@@ -220,7 +228,7 @@ fn drawn(
     list: &List,
     harnesses: &Harnesses,
     record: &mut Record,
-    sources: &str,
+    sources: &Sources,
 ) -> Result<Work, ProveError> {
     let seed = request.seed.unwrap_or(list.drawn.seed);
     let all = draw(listed(root, &list.drawn.package)?, seed);
@@ -229,7 +237,7 @@ fn drawn(
         record.drawn.mistakes.clear();
     }
     (record.drawn.seed, record.drawn.of) = (seed, order.len());
-    record.drawn.mistakes.retain(|entry| entry.sources == sources && !request.again);
+    record.drawn.mistakes.retain(|entry| entry.is_current(sources) && !request.again);
     let (mut tasks, mut wanted) = (Vec::new(), count.div_ceil(request.shard.of));
     for listed in request.shard.part(all) {
         if let Some(entry) = record.drawn.mistakes.iter().find(|entry| entry.name == listed.name) {

@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use super::check::word;
 use super::list::List;
 use super::record::{Entry, Outcome, Record};
+use crate::prove::Sources;
 
 /// Where the table begins.
 const BEGIN: &str = "<!-- mistakes: written by `supervise mistakes --write` -->";
@@ -30,11 +31,11 @@ impl Score {
 
 /// What stands between the marks: what the record says of the list, the marks included.
 ///
-/// Only what ran on the sources with this digest counts.
+/// Only what ran on these sources counts.
 #[must_use]
-pub fn block(list: &List, record: &Record, sources: &str, proved: &BTreeSet<String>) -> String {
+pub fn block(list: &List, record: &Record, sources: &Sources, proved: &BTreeSet<String>) -> String {
     let mut lines = vec![BEGIN.to_owned()];
-    let named: Vec<&Entry> = record.named.iter().filter(|entry| entry.sources == sources).collect();
+    let named: Vec<&Entry> = record.named.iter().filter(|entry| entry.is_current(sources)).collect();
     let score = Score::of(named.iter().copied(), proved);
     let known = list.mistake.iter().filter(|mistake| mistake.survives.is_some()).count();
     lines.push(format!(
@@ -60,8 +61,8 @@ pub fn block(list: &List, record: &Record, sources: &str, proved: &BTreeSet<Stri
     lines.join("\n")
 }
 
-fn drawn(list: &List, record: &Record, sources: &str, proved: &BTreeSet<String>, lines: &mut Vec<String>) {
-    let run: Vec<&Entry> = record.drawn.mistakes.iter().filter(|entry| entry.sources == sources).collect();
+fn drawn(list: &List, record: &Record, sources: &Sources, proved: &BTreeSet<String>, lines: &mut Vec<String>) {
+    let run: Vec<&Entry> = record.drawn.mistakes.iter().filter(|entry| entry.is_current(sources)).collect();
     let score = Score::of(run.iter().copied(), proved);
     lines.push(String::new());
     if score.of == 0 {
@@ -119,6 +120,7 @@ pub fn replaced(text: &str, block: &str) -> Option<String> {
 mod tests {
     use super::{BEGIN, END, block, replaced};
     use crate::mistakes::{Drawn, Entry, List, Mistake, Outcome, Record};
+    use crate::prove::Sources;
 
     fn entry(name: &str, outcome: Outcome, sources: &str) -> Entry {
         let text = str::to_owned;
@@ -159,7 +161,7 @@ mod tests {
             entry("d", Outcome::DoesNotCompile { error }, "now"),
         ];
         let proved = std::collections::BTreeSet::from(["seat_5".to_owned()]);
-        let text = block(&list, &record, "now", &proved);
+        let text = block(&list, &record, &Sources::same("now"), &proved);
         for part in [
             "1 of 3 named mistakes are caught by a proof alone, without any test; 1 survive, and are known to.",
             "| `one` | It rolls \\| away. | `seat_5` | 9 |",
@@ -171,8 +173,8 @@ mod tests {
         ] {
             assert!(text.contains(part), "{part}:\n{text}");
         }
-        assert!(block(&list, &record, "later", &proved).contains("0 of 3"));
-        let unproved = block(&list, &record, "now", &std::collections::BTreeSet::new());
+        assert!(block(&list, &record, &Sources::same("later"), &proved).contains("0 of 3"));
+        let unproved = block(&list, &record, &Sources::same("now"), &std::collections::BTreeSet::new());
         assert!(
             unproved.contains("0 of 3") && unproved.contains("| `seat_5`, **itself not proved** | 9 |"),
             "{unproved}"

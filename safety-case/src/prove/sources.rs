@@ -83,9 +83,20 @@ impl Sources {
         self.harnesses.get(harness).unwrap_or(&self.whole)
     }
 
+    /// Digest of what these harnesses speak of together; of everything, if there are none.
+    #[must_use]
+    pub fn of_all<'a>(&self, harnesses: impl Iterator<Item = &'a str>) -> String {
+        let digests: BTreeSet<&str> = harnesses.map(|harness| self.of(harness)).collect();
+        match digests.len() {
+            0 => self.whole.clone(),
+            1 => digests.into_iter().collect(),
+            _ => sha256(digests.into_iter().collect::<Vec<_>>().join(" ").as_bytes()),
+        }
+    }
+
     /// The same digest for everything.
     #[cfg(test)]
-    pub(super) fn same(digest: &str) -> Self {
+    pub(crate) fn same(digest: &str) -> Self {
         Self { whole: digest.to_owned(), harnesses: BTreeMap::new() }
     }
 }
