@@ -136,7 +136,8 @@ pub fn cmd_6a_obligation_has_its_own_mode(cycle: &Cycle<'_>) -> bool {
 /// Whether a request will have been lost for the hold in this cycle; the first cycle without one counts for no time.
 fn held_long_enough(since: Timer, of: &Cycle<'_>) -> bool {
     let (_, elapsed) = of.elapsed();
-    since.is_running() && since.elapsed().raw().saturating_add(elapsed) >= of.config.brake_hold.raw()
+    // A timer saturates one below the top.
+    since.is_running() && since.elapsed().raw().saturating_add(elapsed).min(u32::MAX - 1) >= of.config.brake_hold.raw()
 }
 
 /// E2E-2c: a lost request counts as the last output exactly while it has been lost for less than the hold; then as no more
