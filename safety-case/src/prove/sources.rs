@@ -386,7 +386,7 @@ mod tests {
         let cases = [
             (HARNESS.replace("idle()", "idle() || true"), PROPERTIES.to_owned(), false, true),
             (HARNESS.replace("{ holds() }", "{ !holds() }"), PROPERTIES.to_owned(), true, false),
-            (HARNESS.replace("fn t", "fn u"), PROPERTIES.to_owned(), false, false),
+            (HARNESS.replace("fn t()", "fn u()"), PROPERTIES.to_owned(), false, false),
             (HARNESS.replace("properties::holds", "others::holds"), PROPERTIES.to_owned(), true, true),
             (
                 HARNESS.to_owned(),
