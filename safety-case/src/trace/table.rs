@@ -189,9 +189,9 @@ impl Proofs {
         let text = fs::read_to_string(&path).map_err(|error| TraceError::File { path, error })?;
         let list = List::load(root)?;
         let record = Record::load(&root.join(RECORD))?;
-        let sources = Sources::load(root)?;
+        let sources = if record.proofs.is_empty() { None } else { Some(Sources::load(root)?) };
         let listed = list.harness.into_iter().map(|harness| {
-            let (proved, words) = verdict(&harness, &record, &sources);
+            let (proved, words) = verdict(&harness, &record, sources.as_ref());
             let line = line_with(&text, &format!("name = \"{}\"", harness.name));
             (harness, line, proved, words)
         });
@@ -199,7 +199,7 @@ impl Proofs {
     }
 }
 
-fn verdict(harness: &Harness, record: &Record, sources: &Sources) -> (bool, String) {
+fn verdict(harness: &Harness, record: &Record, sources: Option<&Sources>) -> (bool, String) {
     if let Some(open) = &harness.open {
         return (false, format!("open: {open}"));
     }
@@ -210,7 +210,11 @@ fn verdict(harness: &Harness, record: &Record, sources: &Sources) -> (bool, Stri
         Verdict::Vacuous(why) => format!("vacuous: {why}"),
         Verdict::Undetermined(why) => format!("undetermined: {why}"),
     };
-    let age = if proof.sources == sources.of(&harness.name) { "" } else { ", on older sources" };
+    let age = if sources.is_some_and(|sources| proof.sources == sources.of(&harness.name)) {
+        ""
+    } else {
+        ", on older sources"
+    };
     (proof.verdict == Verdict::Proved, words + age)
 }
 
