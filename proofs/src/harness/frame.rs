@@ -253,7 +253,6 @@ fn e2e_1_redundant() {
 /// CMD-3e: any sender, time and outputs.
 #[kani::proof]
 #[kani::unwind(40)]
-#[kani::stub(supervisor_wire::Protection::seal, crate::harness::uninterpreted::seal)]
 fn cmd_3_counters_run_on() {
     let (sender, now, outputs): (Sender, Millis, Outputs) = (kani::any(), kani::any(), kani::any());
     assert!(cmd_3e_counters_run_on(&sender, now, &outputs));

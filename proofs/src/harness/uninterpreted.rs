@@ -240,13 +240,3 @@ pub(super) fn open(of: Protection, id: u32, payload: u64) -> Result<Option<u8>, 
     SEEN.agree([u64::from(of.counts()) << 32 | u64::from(id), payload], [told]);
     result
 }
-
-/// For [`Protection::seal`]: its counter stands in its place, proved by `e2e_1_profile_11` and `e2e_1_j1939`; the check field may be any.
-pub(super) fn seal(of: Protection, _id: u32, payload: u64, counter: u8) -> u64 {
-    let (check, counter): (u8, u64) = (kani::any(), u64::from(counter & 0x0F));
-    match of {
-        Protection::Profile11 => payload & !0x0FFF | counter << 8 | u64::from(check),
-        Protection::Tsc1 | Protection::Xbr => payload & !(0xFF << 56) | counter << 56 | u64::from(check & 0x0F) << 60,
-        Protection::Bare => payload,
-    }
-}

@@ -138,12 +138,17 @@ const fn protected_by(protection: Protection) -> u64 {
     }
 }
 
-/// CMD-1b, CMD-1c, CMD-7c: a protected frame is taken only if writing what was read gives the same payload, to the bit: no field out of
-/// its range, no code that is not in its table, no stray bit. Counter and check field are the next property's.
+/// CMD-1b, CMD-1c, E2E-1b, CMD-7c: a protected frame is taken only if writing what was read gives the same frame, to the bit: no field out of
+/// its range, no code that is not in its table, no stray bit, the right check field.
 #[must_use]
 pub fn cmd_1_taken_means_encoded_the_same(arrival: &Arrival) -> bool {
-    let Arrival { message, frame, new, result, .. } = arrival;
-    implies(result.is_ok(), frame.length == 8 && writes_back(*message, frame.payload(), new))
+    let Frame { id, length, .. } = arrival.frame;
+    let payload = arrival.frame.payload();
+    let same = match fields(arrival.protection(), payload) {
+        None => true,
+        Some((counter, _)) => arrival.protection().seal(id, write(arrival.message, &arrival.new), counter) == payload,
+    };
+    implies(arrival.result.is_ok(), length == 8 && same)
 }
 
 /// CMD-1b, CMD-1c: writing what was read of a protected message gives the same payload, to the bit.
@@ -344,8 +349,7 @@ pub fn cmd_3e_counters_run_on(before: &Sender, now: Millis, outputs: &Outputs) -
     after.encode_outputs(now, outputs, &mut |frame| {
         for message in Message::ALL.iter().copied().filter(|message| message.id_from(Source::Supervisor) == frame.id) {
             let place = &mut sent[message.number()];
-            // That the check field is right beside it is `e2e_1b_sealed_is_intact`.
-            let counter = fields(message.protection(), frame.payload()).map(|(counter, _)| counter);
+            let counter = message.protection().open(frame.id, frame.payload()).ok().flatten();
             good &= place.is_none() && counter.is_some() && message.is_command();
             *place = counter;
         }
