@@ -117,12 +117,15 @@ fn closing_needs_the_driver_in_its_own_cycle() {
     }
 }
 
-/// SEAT-8c: K1 closes first; K4 only with K1 confirmed closed; then nothing more is to close.
+/// SEAT-8c: K1 closes first; K4 only with K1 confirmed closed; then nothing more is to close. CMD-3b: the pair is limited
+/// while one of the two moves, blocked when neither does.
 #[test]
 fn k1_closes_before_k4() {
     let mut bus = Bus::restarted();
     let k1_only = Contactors { k4: ContactorRequest::Hold, k1: ContactorRequest::Close };
     bus.run_with(1_000, 10, |decision| assert_eq!(decision.outputs.contactors, k1_only));
+    assert_verdict(&bus.step(), Channel::Contactors, Kind::Limit, Reason::K1NotClosed);
+    bus.ask_contactors(ContactorRequest::Close, ContactorRequest::Hold);
     assert_verdict(&bus.step(), Channel::Contactors, Kind::Block, Reason::K1NotClosed);
     for k1 in [unknown(Cause::Stale), OPEN] {
         bus.inputs.k1 = k1;
