@@ -1,10 +1,11 @@
 //! The table of leave at every speed there is (SEAT-3a, SEAT-3b, SEAT-3c), on the shipped `decide`.
 
+use supervisor_core::kernel::between_up;
 use supervisor_core::{
     Commands, Config, DecelMs2Q11, EpbState, Inputs, Millis, Row, SeatState, Signal, SpeedKmhQ8, State, Threat,
 };
 use supervisor_proofs::properties::Witness;
-use supervisor_proofs::properties::leave::is_table;
+use supervisor_proofs::properties::leave::{COARSE, FINE, is_line, is_table};
 
 /// The demand of leave at this speed, the parking brake applied.
 fn demand(speed: u16, config: &Config) -> DecelMs2Q11 {
@@ -46,4 +47,23 @@ fn table_of_extremes_at_every_speed() {
     let values = [0, 0, 1, 2, 2, 6000, 6001, 6001, 6001, 12_287, 12_288, 12_288, 12_288, 12_288, 12_288, 12_288];
     let leave_decel = Row(values.map(DecelMs2Q11::new));
     exact_at_every_speed(&Config { leave_decel, ..Config::DEFAULT });
+}
+
+/// SEAT-3b, SEAT-3c: the line between two points, for both distances that points lie apart, every difference of their values
+/// and every place between them: rounded to the stronger side, and nowhere does it fall. The lower value only adds.
+#[test]
+fn seat_3_line_of_every_way() {
+    for step in [FINE, COARSE] {
+        for way in 0..=u16::MAX {
+            let mut before = 0;
+            for rest in 0..=step {
+                let (least, most) = (between_up(0, way, rest, step), between_up(u16::MAX - way, u16::MAX, rest, step));
+                assert!(is_line(least, 0, way, rest, step), "{rest} of {step} of {way}: {least}");
+                assert_eq!(most, u16::MAX - way + least, "{rest} of {step} of {way}");
+                assert!(before <= least, "{rest} of {step} of {way}: {least} falls");
+                before = least;
+            }
+            assert_eq!(before, way, "{way}: the second point");
+        }
+    }
 }

@@ -50,16 +50,18 @@ fn timing() -> impl Strategy<Value = Timing> {
 proptest! {
     #![proptest_config(ProptestConfig { cases: CASES, failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// E2E-1b, CMD-7c: intact exactly with the right check field; what is sealed is; one flipped bit is found.
+    /// E2E-1b, CMD-7c: intact exactly with the right check field; what is sealed is; one flipped bit is found, whichever it is.
     #[test]
-    fn check_fields(id in any::<u32>(), payload in any::<u64>(), counter in 0..17_u8, bit in 0..64_u32) {
+    fn check_fields(id in any::<u32>(), payload in any::<u64>(), counter in 0..17_u8) {
         for protection in PROTECTIONS {
             assert!(e2e_1b_sealed_is_intact(protection, id, payload, counter));
             let sealed = protection.seal(id, payload, counter);
-            for payload in [payload, sealed, sealed ^ 1_u64.rotate_left(bit)] {
-                assert!(e2e_1b_intact_exactly(protection, id, payload));
+            assert!(e2e_1b_intact_exactly(protection, id, payload));
+            assert!(e2e_1b_intact_exactly(protection, id, sealed));
+            for bit in 0..64 {
+                assert!(e2e_1b_intact_exactly(protection, id, sealed ^ 1_u64.rotate_left(bit)));
+                assert!(e2e_1b_flipped_bit_is_found(protection, id, sealed, bit));
             }
-            assert!(e2e_1b_flipped_bit_is_found(protection, id, sealed, bit));
         }
     }
 

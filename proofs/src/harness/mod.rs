@@ -5,7 +5,6 @@ mod cap;
 mod channels;
 mod clock;
 mod command;
-mod configuration;
 mod configured;
 mod drive;
 mod flow;

@@ -16,19 +16,20 @@ use crate::properties::object::{
     Sight, fcw_1_forward_warning, fcw_1_threat_says_what_was_merged, fus_3c_only_a_valid_obstacle_obliges,
     fus_3d_any_object_permits_by_need, fus_3d_camera_permits_by_need, fus_3e_one_corridor,
     mit_1_level_is_that_of_the_time, mit_6a_most_severe_decides, mit_6a_order_does_not_matter,
-    mit_8b_disagreement_is_reported, mit_8d_more_severe_decides, pcw_1_pedestrian_warning, ttc_1_products_are_exact,
+    mit_8b_disagreement_is_reported, mit_8d_more_severe_decides, pcw_1_pedestrian_warning,
+    ttc_1_only_what_closes_has_a_time,
 };
 
-/// TTC-1: any distance, closing speed and limit.
+/// TTC-1: any distance, closing speed and limit, for any comparison of products. That the kernel's are exact is its contract, and the
+/// property `ttc_1_products_are_exact` of the tests.
 #[kani::proof]
-#[kani::solver(kissat)]
-fn ttc_1_products() {
+#[kani::stub(supervisor_core::kernel::nearer_than, crate::harness::uninterpreted::nearer_than)]
+#[kani::stub(supervisor_core::kernel::farther_than, crate::harness::uninterpreted::farther_than)]
+fn ttc_1_times() {
     let (distance, closing, limit) = (kani::any(), kani::any(), kani::any());
-    assert!(ttc_1_products_are_exact(distance, closing, limit));
-    kani::cover!(
-        reached_or_equal(distance, closing, limit) && !reached(distance, closing, limit),
-        "exactly at a limit"
-    );
+    assert!(ttc_1_only_what_closes_has_a_time(distance, closing, limit));
+    let (below, at_most) = (reached(distance, closing, limit), reached_or_equal(distance, closing, limit));
+    kani::cover!(at_most && !below, "exactly at a limit");
 }
 
 /// SELF-1: the assessment of any object is total, with the real arithmetic.
@@ -110,24 +111,4 @@ fn fcw_1_threat() {
     let (merged, known): (Assessment, bool) = (kani::any(), kani::any());
     assert!(fcw_1_threat_says_what_was_merged(merged, known));
     kani::cover!(merged.threat(known).closing == Closing::Unknown, "unknown");
-}
-
-/// MIT-6a, MIT-7a, RULE-1a: the fold of lists of none and of one, whatever perception knows: what is too old or comes from a lost sensor
-/// obliges and permits nothing.
-#[kani::proof]
-#[kani::unwind(33)]
-#[kani::stub(supervisor_core::kernel::nearer_than, crate::harness::uninterpreted::nearer_than)]
-#[kani::stub(supervisor_core::kernel::farther_than, crate::harness::uninterpreted::farther_than)]
-#[kani::stub(supervisor_core::kernel::needed, crate::harness::uninterpreted::needed)]
-fn mit_6_fold() {
-    let (object, config): (RadarObject, Config) =
-        (RadarObject { closing: ClosingCmS::ZERO, ..kani::any() }, any_limits());
-    let mut scene = Scene { radar_known: kani::any(), camera_known: kani::any(), ..Scene::default() };
-    let both = scene.radar_known && scene.camera_known;
-    assert!(perceive(&scene, &config) == Assessment::NOTHING.threat(both));
-    assert!(scene.radar.push(object).is_ok());
-    let young = object.age <= config.object_age;
-    let one = if scene.radar_known && young { radar_object(&object, None, &config) } else { Assessment::NOTHING };
-    assert!(perceive(&scene, &config) == merge(Assessment::NOTHING, one).threat(both && (young || !scene.radar_known)));
-    kani::cover!(both && young && one.mitigable, "it permits");
 }

@@ -55,6 +55,7 @@ impl AnyWatch {
 
 /// RSP-1a to RSP-1c, RSP-1g, RSP-1i: one actuator against its target.
 #[kani::proof]
+#[kani::solver(kissat)]
 fn rsp_1_actuator_follows() {
     let pursuit = Pursuit {
         old: kani::any(),

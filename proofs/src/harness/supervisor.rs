@@ -1,8 +1,8 @@
 //! The supervisor itself: state at rest, boot, safe state, record (SELF).
 
 use supervisor_core::{
-    Commands, EpbRequest, Outputs, Percent, Record, ResetCause, STATE_WORDS, State, StateImage, decide, record, vet,
-    vet_brake, vet_contactors, vet_drive, vet_epb, vet_gear, vet_mode, vet_steering, vet_warnings,
+    Commands, Decided, EpbRequest, Outputs, Percent, Record, ResetCause, STATE_WORDS, State, StateImage, decide,
+    record, vet, vet_brake, vet_contactors, vet_drive, vet_epb, vet_gear, vet_mode, vet_steering, vet_warnings,
 };
 
 use super::Any;
@@ -15,14 +15,6 @@ use crate::properties::supervisor::{
     self_5_steering_in_the_safe_state, self_6_flow_fault_is_the_safe_state, self_7_latched,
     self_7_quiet_counts_real_time,
 };
-
-/// SELF-5: what is put to rest comes back.
-#[kani::proof]
-#[kani::unwind(140)]
-fn self_5_state_at_rest_comes_back() {
-    let state: State = kani::any();
-    assert!(StateImage::encode(&state).decode() == Some(state));
-}
 
 /// SELF-5: any single flipped bit of any intact image is detected; what is not intact does not decode.
 #[kani::proof]
@@ -75,20 +67,19 @@ fn self_5_safe_state_and_no_torque() {
     kani::cover!(outputs.drive.torque > Percent::ZERO, "torque passes");
 }
 
-/// SELF-1, SEAT-4: `record` is total, and only a release that went out clears *parked by leave*. With `decide`, every
+/// SELF-1, SEAT-4: `record` is total after any decision, and only a release that went out clears *parked by leave*. With `decide`, every
 /// `vet_*` and the state image this is the whole of `step`.
 #[kani::proof]
 #[kani::unwind(17)]
 fn seat_4_record_is_total_and_keeps_the_latch() {
-    let any = Any::new();
-    let (outputs, commands): (Outputs, Commands) = (kani::any(), kani::any());
-    let next = record(&any.decided, &outputs, &commands, &any.config);
-    let released = outputs.epb.request == EpbRequest::Release;
-    assert!(next.parking.by_leave == (any.decided.state.parking.by_leave && !released));
-    assert!(next.latches == any.decided.state.latches);
-    assert!(next.high_voltage == any.decided.state.high_voltage && next.seat == any.decided.state.seat);
+    let (decided, outputs, commands): (Decided, Outputs, Commands) = (kani::any(), kani::any(), kani::any());
+    let next = record(&decided, &outputs, &commands, &kani::any());
+    let (state, released) = (&decided.state, outputs.epb.request == EpbRequest::Release);
+    assert!(next.parking.by_leave == (state.parking.by_leave && !released));
+    assert!(next.latches == state.latches);
+    assert!(next.high_voltage == state.high_voltage && next.seat == state.seat);
     kani::cover!(next.parking.by_leave, "parked by leave stays");
-    kani::cover!(any.decided.state.parking.by_leave && released, "a release ends it");
+    kani::cover!(state.parking.by_leave && released, "a release ends it");
 }
 
 /// SELF-5d, SELF-5g: how the safe state brakes, and that steering fades.
@@ -118,25 +109,4 @@ fn self_5_safe_state_brakes_and_fades() {
     );
     kani::cover!(safe && outputs.steering.weight > Percent::ZERO, "steering fades");
     kani::cover!(safe && outputs.brake.total > envelope.brake.floor.most, "a request brakes more than is obliged");
-}
-
-/// SELF-3a: equal state, time, inputs and commands give an equal decision.
-#[kani::proof]
-#[kani::unwind(17)]
-fn self_3_deterministic() {
-    let any = Any::new();
-    let again = decide(&any.old, any.now, &any.inputs, &any.threat, &any.response, &any.config);
-    assert!(any.decided.state == again.state && any.decided.faults == again.faults);
-    assert!(any.decided.envelope == again.envelope);
-    kani::cover!(again.state.seat.leave, "leave");
-}
-
-/// SELF-3a: and equal envelope and commands an equal verdict, on every channel.
-#[kani::proof]
-#[kani::unwind(17)]
-fn self_3_vet_deterministic() {
-    let (envelope, commands) = (kani::any(), kani::any());
-    let (first, again) = (vet(&envelope, &commands), vet(&envelope, &commands));
-    assert!(first.0 == again.0 && first.1 == again.1);
-    kani::cover!(first.0.drive.torque > Percent::ZERO, "torque passes");
 }

@@ -28,9 +28,9 @@ pub fn rsp_1_follow(Pursuit { old, target, measured, error, elapsed }: Pursuit, 
         return *new == Follow::INITIAL;
     }
     let reference = if old.reference == 0 { target } else { old.reference.min(target) };
-    let needed = if old.following { 100_u8.saturating_sub(error) } else { 95 };
+    let needed = if old.following { 100_u32.saturating_sub(u32::from(error)) } else { 95 };
     let given = u32::from(measured) * 100;
-    if given >= u32::from(reference) * u32::from(needed) {
+    if given >= u32::from(reference) * needed {
         return *new == Follow { reference: target, following: true, ..Follow::INITIAL };
     }
     let begins = !old.command.is_running();

@@ -7,7 +7,7 @@ use supervisor_core::{
     AngleDeciDeg, Cause, Command, Config, DecelMs2Q11, Evidence, Inputs, Millis, Outputs, Pedal250, Percent,
     RetarderMode, Seat, Signal, SpeedKmhQ8, kernel,
 };
-use supervisor_wire::inspect::{Link, Values, identify, read, write};
+use supervisor_wire::inspect::{Link, Values, identify, read, send, write};
 use supervisor_wire::{Destination, Fault, Frame, Message, Protection, Sender, Source};
 
 use super::implies;
@@ -337,6 +337,23 @@ pub fn cmd_1a_closed_table(id: u32) -> bool {
             !Message::ALL.iter().any(|message| is(*message, Source::MainController) || is(*message, Source::Supervisor))
         }
     }
+}
+
+/// CMD-3e, SELF-8a: one message that is sent goes out once, intact, with the counter after its last one, the first with 0; no
+/// other message's counter moves.
+#[must_use]
+pub fn cmd_3e_next_counter(before: &Sender, now: Millis, message: Message, values: &Values) -> bool {
+    let (mut after, mut frames, mut good) = (before.clone(), 0_u8, true);
+    let next = before.counter(message).map_or(0, |last| u16::from(last) + 1);
+    let next = if next < u16::from(message.protection().counts()) { next } else { 0 };
+    let id = message.id_from(Source::Supervisor);
+    send(&mut after, now, message, values, &mut |frame| {
+        let counter = message.protection().open(frame.id, frame.payload()).ok().flatten();
+        good &= frame.id == id && counter.map(u16::from) == Some(next);
+        frames = frames.saturating_add(1);
+    });
+    let kept = |other: Message| other == message || after.counter(other) == before.counter(other);
+    good && frames == 1 && after.counter(message).map(u16::from) == Some(next) && Message::ALL.iter().copied().all(kept)
 }
 
 /// CMD-3e, SELF-8a: in every cycle, whatever is sent, each output of a message has the counter after its last one; the first has 0. None goes out

@@ -92,6 +92,15 @@ pub fn ttc_1_products_are_exact(distance: DistanceCm, closing: ClosingCmS, limit
         && reached_or_equal(distance, closing, limit) == (speed > 0 && way <= reach)
 }
 
+/// TTC-1b, TTC-1c: what is not closing has no T; T < `limit` and T ≤ `limit` are the two comparisons of products, whatever they give.
+#[must_use]
+pub fn ttc_1_only_what_closes_has_a_time(distance: DistanceCm, closing: ClosingCmS, limit: Millis) -> bool {
+    let (below, at_most) = (reached(distance, closing, limit), reached_or_equal(distance, closing, limit));
+    let Ok(speed) = u16::try_from(closing.raw()) else { return !below && !at_most };
+    below == kernel::nearer_than(distance.raw(), speed, limit.raw())
+        && at_most == (speed > 0 && !kernel::farther_than(distance.raw(), speed, limit.raw()))
+}
+
 /// FUS-1a: where the object is now, rounded to the nearer centimetre: the way that it closed in its age is taken off; never below
 /// 0, at most 655.35 m. An age beyond 32.767 s counts as that.
 #[must_use]

@@ -46,15 +46,18 @@ pub fn self_5_damage_permits_nothing(damaged: &State) -> bool {
         && damaged.flow == Flow::RECORDED
 }
 
-/// SELF-5a, SELF-5c: after any single flipped bit of an image of `N` words and complements it does not decode, and what is
+/// SELF-5a, SELF-5c: after any single flipped bit of an image of `N` words and complements, which decodes without it, it does not decode, and what is
 /// recovered is what was put to rest; one of the digest, which nothing else needs, changes nothing. The shipped code is generic
 /// in `N`.
 #[must_use]
 pub fn self_5_flipped_bit_is_recovered<const N: usize>(words: [u32; N], index: usize, bit: u32) -> bool {
     let value = Row(words);
-    let image = Image::<N>::encode(&value).with_flipped_bit(index, bit);
+    let intact = Image::<N>::encode(&value);
+    let image = intact.with_flipped_bit(index, bit);
     let decoded = image.decode::<Row<u32, N>>();
-    if index >= N.saturating_mul(2) {
+    if intact.decode() != Some(value) {
+        false
+    } else if index >= N.saturating_mul(2) {
         decoded == Some(value)
     } else {
         decoded.is_none() && image.recover::<Row<u32, N>>() == Some(value)

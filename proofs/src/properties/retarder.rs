@@ -1,13 +1,18 @@
 //! The retarder (RET-1, PHB-1).
 
-use supervisor_core::{Percent, RetarderMode};
+use supervisor_core::{Percent, Retarder, RetarderMode, kernel};
 
 use super::known::asked;
 use super::{Cycle, Property, all, implies};
 
 /// Every property of this file.
-pub const ALL: &[Property] =
-    all![ret_1b_none_beside_abs, ret_1b_bound_exactly, ret_1a_total_below_cap, self_11g_request_inside_cap_passes];
+pub const ALL: &[Property] = all![
+    ret_1b_none_beside_abs,
+    ret_1b_bound_exactly,
+    ret_1a_as_much_as_fits,
+    ret_1a_total_below_cap,
+    self_11g_request_inside_cap_passes,
+];
 
 /// RET-1b: while ABS is at work the retarder is told 0 %.
 #[must_use]
@@ -23,6 +28,22 @@ pub fn ret_1b_bound_exactly(cycle: &Cycle<'_>) -> bool {
     bound.retarder.most == most
         && implies(bound.retarder_obliged, most == Percent::FULL)
         && bound.retarder_decel == cycle.config.retarder_decel
+}
+
+/// RET-1a, SELF-11g: the retarder is told what was asked for, but no more than its bound and what fits beside the service
+/// brake below the cap; obliged, it is told all of that.
+#[must_use]
+pub fn ret_1a_as_much_as_fits(cycle: &Cycle<'_>) -> bool {
+    let (bound, out) = (&cycle.envelope.brake, cycle.outputs.retarder);
+    let room = bound.cap.most.raw().saturating_sub(cycle.outputs.brake.total.raw());
+    let most = bound.retarder.most.min(Percent::new(kernel::fits(room, bound.retarder_decel.raw())));
+    if bound.retarder_obliged {
+        return out.torque == most && out.mode == RetarderMode::Torque;
+    }
+    match asked(cycle.commands.retarder, cycle.envelope.timeouts.ms100) {
+        Some(wanted) => out == Retarder { torque: wanted.torque.min(most), ..wanted },
+        None => out.torque == bound.retarder_fallback.min(most),
+    }
 }
 
 /// RET-1a, PHB-1a, PHB-1b: service brake and retarder together stay below the cap, counted with what the retarder gives for

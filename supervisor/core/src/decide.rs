@@ -16,6 +16,7 @@ pub(crate) use supervisor_observe::Ticks;
 
 /// What `decide` gives.
 #[derive(Clone, Copy, Debug)]
+#[cfg_attr(kani, derive(kani::Arbitrary))]
 pub struct Decided {
     /// The next state, before the outputs of this cycle are recorded in it.
     pub state: State,

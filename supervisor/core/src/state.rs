@@ -55,11 +55,10 @@ impl State {
     /// SELF-9: the state after a reset. `record` is `None` when the persisted record failed its CRC.
     #[must_use]
     pub fn boot(cause: ResetCause, record: Option<Record>) -> Self {
-        let clean = cause == ResetCause::PowerOn && record == Some(Record::None);
         let down = record == Some(Record::HighVoltageDown);
         let leave = record == Some(Record::Leave);
         Self {
-            boot: Boot::new(clean),
+            boot: Boot::new(cause == ResetCause::PowerOn && record == Some(Record::None)),
             seat: SeatState { leave, ..SeatState::INITIAL },
             parking: Parking { by_leave: leave || down, ..Parking::INITIAL },
             // What is already open is seen by its feedback; what is not, is still owed.
@@ -75,15 +74,19 @@ impl State {
     #[must_use]
     pub fn corrupted() -> Self {
         let fresh = Self::boot(ResetCause::Other, None);
-        let drive = Drive { release_needed: true, ..fresh.drive };
-        Self { latches: Latches::with(Faults::STATE), drive, ..fresh }
+        Self { latches: Latches::with(Faults::STATE), drive: Drive { release_needed: true, ..fresh.drive }, ..fresh }
     }
 
-    /// SELF-5c: the same, with what the whole copy of a damaged image still obliges; it permits nothing.
+    /// SELF-5c: the state after an image that is not intact: what its whole copy says, if there is one.
     #[must_use]
     pub fn damaged(image: &StateImage) -> Self {
+        image.recover().map_or_else(Self::corrupted, Self::after_damage)
+    }
+
+    /// SELF-5c: [`corrupted`](Self::corrupted), with what the recovered state still obliges; it permits nothing.
+    #[must_use]
+    pub fn after_damage(old: Self) -> Self {
         let fresh = Self::corrupted();
-        let Some(old) = image.recover::<Self>() else { return fresh };
         Self {
             boot: fresh.boot,
             latches: Latches::with(old.latches.faults.with(Faults::STATE)),

@@ -111,11 +111,10 @@ pub fn record(decided: &Decided, outputs: &Outputs, commands: &Commands, config:
     let steers = commands.steering.usable(timeouts.ms50).ok().map(|steering| steering.enable);
     let (state, bound) = (decided.state, &decided.envelope.brake);
     let braking = bound.total(outputs);
-    let due = bound.lamps_due(braking, config.lamp_decel);
     State {
         parking: state.parking.record(outputs),
         drive: state.drive.record(outputs, braking, asked, mode_lost, decided.ticks, config),
-        brake: state.brake.record(outputs, due, usable, decided.ticks, config),
+        brake: state.brake.record(outputs, bound.lamps_due(braking, config.lamp_decel), usable, decided.ticks, config),
         steering: state.steering.record(outputs, &decided.envelope.steering, steers, decided.ticks, config),
         body: outputs.body,
         monitors: state.monitors.record(outputs, braking, state.mitigation.three),

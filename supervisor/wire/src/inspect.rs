@@ -1,11 +1,20 @@
 //! Single parts of the link, to be proved one by one (feature `inspect`): no vehicle needs them.
 
+use supervisor_core::Millis;
+
+use crate::frame::Frame;
 pub use crate::link::Link;
 pub use crate::list::{Entry, List};
 use crate::message::Source;
 pub use crate::message::Values;
 use crate::refusal::Fault;
+use crate::sender::Sender;
 use crate::table::Message;
+
+/// Sends one message of ours, due or not.
+pub fn send(sender: &mut Sender, now: Millis, message: Message, values: &Values, emit: &mut impl FnMut(Frame)) {
+    sender.send(now, message, message.id_from(Source::Supervisor), values, emit);
+}
 
 /// Reads the signals of a message.
 ///

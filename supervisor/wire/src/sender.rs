@@ -139,7 +139,14 @@ impl Sender {
     }
 
     /// CMD-3d, e: under our counter and check field.
-    fn send(&mut self, now: Millis, message: Message, id: u32, values: &Values, emit: &mut impl FnMut(Frame)) {
+    pub(crate) fn send(
+        &mut self,
+        now: Millis,
+        message: Message,
+        id: u32,
+        values: &Values,
+        emit: &mut impl FnMut(Frame),
+    ) {
         let Some(slot) = self.slots.get_mut(message.number()) else { return };
         let period = message.period();
         // The period runs on from when the frame was due, not from when it was sent: no drift. It begins anew after
