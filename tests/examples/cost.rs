@@ -140,7 +140,7 @@ fn vetting(scenario: &str, envelope: &Envelope, commands: &Commands) {
 /// Both lists full of objects that differ, every one of them near and closing.
 fn full_lists() -> Scene {
     let mut scene = Scene::clear();
-    let mut dice = Dice(SEED);
+    let mut dice = Dice::Number(SEED);
     while !scene.radar.is_full() {
         let near = object(2_000 + dice.half() % 4_000, 500 + dice.signed().rem_euclid(1_000));
         assert!(scene.radar.push(near).is_ok());
@@ -218,7 +218,7 @@ fn main() {
     if time {
         return;
     }
-    let mut dice = Dice(SEED);
+    let mut dice = Dice::Number(SEED);
     for _ in 0..RANDOM_CYCLES {
         let mut bus = start(dice.below(STARTS));
         for _ in 0..6 {

@@ -135,7 +135,7 @@ proptest! {
             perceive(&scene, &Config::DEFAULT)
         };
         let expected = threat(&radar, &camera);
-        let mut dice = random::Dice(seed);
+        let mut dice = random::Dice::Number(seed);
         for _ in 0..4 {
             let (mut radar, mut camera) = (radar.clone(), camera.clone());
             (1..radar.len()).for_each(|last| radar.swap(last, dice.below(last + 1)));
@@ -158,7 +158,7 @@ proptest! {
     /// SELF-1a: full lists of any bits under a configuration of any bits: a threat, and no panic.
     #[test]
     fn any_bits_give_a_threat(seed in any::<u64>()) {
-        let mut dice = random::Dice(seed);
+        let mut dice = random::Dice::Number(seed);
         let config = any_config(&mut dice);
         let mut scene = Scene { radar_known: !dice.one_in(8), camera_known: !dice.one_in(8), ..Scene::default() };
         for _ in 0..MAX_RADAR {

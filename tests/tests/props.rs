@@ -11,7 +11,7 @@ use proptest::prelude::{ProptestConfig, any, proptest};
 
 /// One event, and the cycles after it.
 fn event(bus: &mut Bus, seed: u64) {
-    let mut dice = Dice(seed);
+    let mut dice = Dice::Number(seed);
     if let (Some(decision), false) = (bus.last, dice.one_in(8)) {
         obey(&decision.outputs, &mut bus.inputs);
     }
@@ -50,7 +50,7 @@ proptest! {
     fn noise_keeps_every_claim(which in 0..STARTS, seeds in vec(any::<u64>(), 1..200)) {
         let mut bus = start(which);
         for seed in seeds {
-            let mut dice = Dice(seed);
+            let mut dice = Dice::Number(seed);
             for _ in 0..60 {
                 change_input(&mut dice, &mut bus.inputs);
                 change_command(&mut dice, &mut bus.commands);
@@ -70,7 +70,7 @@ proptest! {
             event(&mut bus, seed);
         }
         let before = bus.step();
-        let mut dice = Dice(which_unknown);
+        let mut dice = Dice::Number(which_unknown);
         let cause = dice.of(Cause::ALL);
         let Inputs { seat, wheel_speed, motor_speed, steering_angle, epb, key, k1, k4, deceleration, .. } = &mut bus.inputs;
         let [first, second] = seat;
@@ -158,12 +158,12 @@ proptest! {
     /// SELF-4g, SELF-2c, SELF-2d, SEAT-5a, SEAT-7f: with any valid configuration the claims that need no number hold.
     #[test]
     fn any_valid_configuration_keeps_the_claims(config_seed in any::<u64>(), which in 0..STARTS, events in vec(any::<u64>(), 1..40)) {
-        let Some(config) = random_config(&mut Dice(config_seed)) else { return Ok(()) };
+        let Some(config) = random_config(&mut Dice::Number(config_seed)) else { return Ok(()) };
         let model = start(which);
         let mut bus = Bus::with_config(&config, ResetCause::PowerOn, Some(Record::None), model.inputs);
         let mut occupied = 0_u32;
         for seed in events {
-            let mut dice = Dice(seed);
+            let mut dice = Dice::Number(seed);
             change_input(&mut dice, &mut bus.inputs);
             change_input(&mut dice, &mut bus.inputs);
             change_command(&mut dice, &mut bus.commands);
@@ -256,7 +256,7 @@ fn random_drives_reach_every_kind_of_decision() {
 }
 
 /// The default with some values moved inside their ranges; `None` where a relation breaks.
-fn random_config(dice: &mut Dice) -> Option<Config> {
+fn random_config(dice: &mut Dice<'_>) -> Option<Config> {
     let mut words = Vec::new();
     Config::DEFAULT.write(&mut |word| words.push(word));
     for _ in 0..=dice.below(12) {

@@ -402,7 +402,7 @@ fn unclear_sensors_are_reported() {
 fn nobody_but_the_sensors_confirms_the_seat() {
     let pairs: Vec<[Signal<Seat>; 2]> = unclear().into_iter().chain([[VACANT, VACANT]]).collect();
     for which in 0..STARTS {
-        let mut dice = Dice(0x7b + u64::try_from(which).unwrap_or(0));
+        let mut dice = Dice::Number(0x7b + u64::try_from(which).unwrap_or(0));
         let mut bus = start(which);
         for _ in 0..300 {
             for _ in 0..20 {

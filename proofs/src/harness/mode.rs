@@ -36,6 +36,7 @@ fn mode_1_may_begin() {
 /// SPD-1c: whatever the target speed, nothing else that goes out depends on it, the brake least of all.
 #[kani::proof]
 #[kani::unwind(17)]
+#[kani::stub(supervisor_core::kernel::fits, crate::harness::uninterpreted::fits)]
 fn spd_1_target_speed_brakes_nothing() {
     let (envelope, commands): (supervisor_core::Envelope, Commands) = (kani::any(), kani::any());
     let (one, _) = vet(&envelope, &commands);

@@ -101,6 +101,18 @@ impl Road {
         })
     }
 
+    /// What a mapping and a DBC decode that are no files: errors call them `map.toml` and `bus.dbc`.
+    ///
+    /// # Errors
+    /// As [`open`](Self::open).
+    pub fn of_texts(map: String, dbc: String, config: &Config) -> Result<Mapped, MapError> {
+        let map = Text { file: "map.toml".into(), text: map };
+        let dbc = Text { file: "bus.dbc".into(), text: dbc };
+        let mapping = mapping::parse(&map)?;
+        let parsed = bind::dbc_text(&dbc)?;
+        bind::bind(&mapping, &map, &(parsed, dbc.file), config)
+    }
+
     /// What it decodes, for people.
     #[must_use]
     pub fn name(&self) -> &str {

@@ -132,6 +132,16 @@ impl Bus {
         (0..=limit / cycle).map(|count| count * cycle).find(|_| reached(&self.step_by(cycle)))
     }
 
+    /// What it remembers, decoded.
+    pub fn state(&self) -> Option<State> {
+        self.supervisor.image().decode()
+    }
+
+    /// Its configuration.
+    pub const fn sealed(&self) -> &Sealed {
+        &self.sealed
+    }
+
     /// The retained words, for fault injection.
     pub fn with_image(&self, change: impl Fn(StateImage) -> StateImage) -> Self {
         let image = change(*self.supervisor.image());

@@ -3,19 +3,40 @@
 use super::*;
 use std::sync::OnceLock;
 
-/// Small deterministic randomness (splitmix64), so that one number is one event.
-pub struct Dice(pub u64);
+/// Where random events come from: one number (splitmix64), so that a number is an event; or the bytes of a fuzzer, each
+/// choice the next of them, so that a byte is a choice.
+pub enum Dice<'a> {
+    Number(u64),
+    Bytes(&'a [u8]),
+}
 
-impl Dice {
+impl Dice<'_> {
+    /// The next `count` bytes as a number; zeros where the bytes are used up.
+    fn take(&mut self, count: usize) -> u64 {
+        match self {
+            Self::Number(number) => {
+                *number = number.wrapping_add(0x9E37_79B9_7F4A_7C15);
+                let mut mixed = *number;
+                mixed = (mixed ^ (mixed >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+                mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+                mixed ^ (mixed >> 31)
+            }
+            Self::Bytes(bytes) => {
+                let (taken, rest) = bytes.split_at(count.min(bytes.len()));
+                *bytes = rest;
+                taken.iter().rev().fold(0, |number, byte| number << 8 | u64::from(*byte))
+            }
+        }
+    }
+    /// No byte is left. A number never ends.
+    pub fn is_used_up(&self) -> bool {
+        matches!(self, Self::Bytes([]))
+    }
     pub fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut mixed = self.0;
-        mixed = (mixed ^ (mixed >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        mixed ^ (mixed >> 31)
+        self.take(8)
     }
     pub fn below(&mut self, count: usize) -> usize {
-        usize::try_from(self.next() % u64::try_from(count).unwrap_or(1)).unwrap_or(0)
+        usize::try_from(self.take(1 + count / 256) % u64::try_from(count).unwrap_or(1)).unwrap_or(0)
     }
     pub fn one_in(&mut self, count: usize) -> bool {
         self.below(count) == 0
@@ -27,18 +48,18 @@ impl Dice {
         all[self.below(all.len())]
     }
     pub fn byte(&mut self) -> u8 {
-        let [byte, ..] = self.next().to_le_bytes();
+        let [byte, ..] = self.take(1).to_le_bytes();
         byte
     }
     pub fn half(&mut self) -> u16 {
-        let [low, high, ..] = self.next().to_le_bytes();
+        let [low, high, ..] = self.take(2).to_le_bytes();
         u16::from_le_bytes([low, high])
     }
     pub fn signed(&mut self) -> i16 {
         self.half().cast_signed()
     }
     pub fn word(&mut self) -> u32 {
-        let [a, b, c, d, ..] = self.next().to_le_bytes();
+        let [a, b, c, d, ..] = self.take(4).to_le_bytes();
         u32::from_le_bytes([a, b, c, d])
     }
     /// A value that is mostly known.
@@ -85,7 +106,7 @@ impl Dice {
 }
 
 /// Changes one input.
-pub fn change_input(dice: &mut Dice, inputs: &mut Inputs) {
+pub fn change_input(dice: &mut Dice<'_>, inputs: &mut Inputs) {
     if dice.flag() {
         change_driver(dice, inputs);
     } else {
@@ -94,7 +115,7 @@ pub fn change_input(dice: &mut Dice, inputs: &mut Inputs) {
 }
 
 /// Seat, pedals, steering wheel, switches, key.
-fn change_driver(dice: &mut Dice, inputs: &mut Inputs) {
+fn change_driver(dice: &mut Dice<'_>, inputs: &mut Inputs) {
     let any = &[false, true];
     match dice.below(18) {
         0 => inputs.seat = [dice.signal_of(Seat::ALL), dice.signal_of(Seat::ALL)],
@@ -120,7 +141,7 @@ fn change_driver(dice: &mut Dice, inputs: &mut Inputs) {
 }
 
 /// What the vehicle reports.
-fn change_vehicle(dice: &mut Dice, inputs: &mut Inputs) {
+fn change_vehicle(dice: &mut Dice<'_>, inputs: &mut Inputs) {
     let any = &[false, true];
     match dice.below(18) {
         0 => inputs.wheel_speed = dice.maybe(Dice::speed),
@@ -167,7 +188,7 @@ fn change_vehicle(dice: &mut Dice, inputs: &mut Inputs) {
 }
 
 /// Changes one command.
-pub fn change_command(dice: &mut Dice, commands: &mut Commands) {
+pub fn change_command(dice: &mut Dice<'_>, commands: &mut Commands) {
     match dice.below(12) {
         0 => {
             let value = DriveTorque { torque: dice.percent(), active: dice.flag(), origin: dice.of(Origin::ALL) };
@@ -252,7 +273,7 @@ pub fn change_command(dice: &mut Dice, commands: &mut Commands) {
 }
 
 /// Another road: mostly clear or one object near a threshold, sometimes full lists of anything.
-pub fn change_scene(dice: &mut Dice, scene: &mut Scene) {
+pub fn change_scene(dice: &mut Dice<'_>, scene: &mut Scene) {
     *scene = Scene { radar_known: !dice.one_in(6), camera_known: !dice.one_in(6), ..Scene::clear() };
     let objects = if dice.one_in(8) { MAX_RADAR } else { dice.below(3) };
     for _ in 0..objects {
@@ -296,7 +317,7 @@ pub fn obey(outputs: &Outputs, inputs: &mut Inputs) {
 }
 
 /// What the bus shows beside our own frames, and what the brake system splits by.
-pub fn change_bus(dice: &mut Dice, inputs: &mut Inputs) {
+pub fn change_bus(dice: &mut Dice<'_>, inputs: &mut Inputs) {
     inputs.foreign = if dice.one_in(20) { Channels::NONE.with(dice.of(Channel::ALL)) } else { Channels::NONE };
     inputs.second_sender = dice.one_in(40);
     if dice.one_in(10) {
@@ -307,7 +328,7 @@ pub fn change_bus(dice: &mut Dice, inputs: &mut Inputs) {
 }
 
 /// The time to the next cycle: mostly 10 ms, sometimes any legal one, seldom anything.
-pub fn cycle(dice: &mut Dice) -> u32 {
+pub fn cycle(dice: &mut Dice<'_>) -> u32 {
     match dice.below(40) {
         0 => dice.of(&[0, 51, 60, 1_000, u32::MAX, u32::MAX - 9]),
         1..=4 => 1 + dice.word() % 50,

@@ -1,0 +1,138 @@
+//! An independent oracle: requirements as past-time formulas over a recorded drive (SEAT, HV-1, MIT, PHB-1, TRQ, GEAR-1,
+//! VLC, MODE-1, E2E-2). It shares no state machine and no code with the supervisor, and never reads the supervisor's state:
+//! what is demanded follows from inputs, commands, objects and earlier outputs.
+//!
+//! Every claim is judged in every cycle of random drives, and is shown to fail where a wrong output is planted.
+
+#[path = "oracle/claims.rs"]
+mod claims;
+#[path = "oracle/collision.rs"]
+mod collision;
+mod common;
+#[path = "oracle/drive.rs"]
+mod drive;
+#[path = "oracle/facts.rs"]
+mod facts;
+#[path = "oracle/findings.rs"]
+mod findings;
+#[path = "oracle/gearbox.rs"]
+mod gearbox;
+#[path = "oracle/lost.rs"]
+mod lost;
+#[path = "oracle/past.rs"]
+mod past;
+#[path = "oracle/read.rs"]
+mod read;
+#[path = "oracle/seat.rs"]
+mod seat;
+#[path = "oracle/starts.rs"]
+mod starts;
+#[path = "oracle/trace.rs"]
+mod trace;
+#[path = "oracle/voltage.rs"]
+mod voltage;
+
+use claims::{Outcome, all, judge};
+use facts::Facts;
+use proptest::collection::vec;
+use proptest::prelude::{ProptestConfig, TestCaseError, any, proptest};
+use proptest::test_runner::RngSeed;
+use starts::{BEGINNINGS, LONG, beginning, event};
+use trace::{Recorder, told};
+
+/// The same drives in every run; `PROPTEST_RNG_SEED` and `PROPTEST_CASES` do not reach them, another seed here does.
+const SEED: RngSeed = RngSeed::Fixed(20_261_126);
+
+/// A drive from a start, with these events.
+fn drive_of(which: usize, events: &[u64]) -> (Recorder, usize) {
+    let mut drive = beginning(which);
+    let from = drive.trace.cycles.len();
+    for seed in events {
+        event(&mut drive, *seed);
+    }
+    (drive, from)
+}
+
+/// Judges every claim in every cycle after the start.
+fn judged(which: usize, events: &[u64]) -> Result<(), TestCaseError> {
+    let (drive, from) = drive_of(which, events);
+    match judge(&drive.trace, from, &all()) {
+        None => Ok(()),
+        Some((at, id, why)) => Err(TestCaseError::fail(format!(
+            "start {which}, cycle {at}\n{}\n{id}: {why}",
+            told(&drive.trace, from, at)
+        ))),
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 220, max_shrink_iters: 400, failure_persistence: None, rng_seed: SEED, ..ProptestConfig::default() })]
+
+    /// Random drives of up to 60 events keep every claim.
+    #[test]
+    fn random_drives_keep_every_requirement(which in 0..LONG, events in vec(any::<u64>(), 1..60)) {
+        judged(which, &events)?;
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 40, max_shrink_iters: 100, failure_persistence: None, rng_seed: SEED, ..ProptestConfig::default() })]
+
+    /// The same at the end of the ten minutes, and in the shutdown.
+    #[test]
+    fn the_shutdown_keeps_every_requirement(which in LONG..BEGINNINGS, events in vec(any::<u64>(), 1..30)) {
+        judged(which, &events)?;
+    }
+}
+
+/// The starts themselves keep every claim, from the reset on.
+#[test]
+fn the_starts_keep_every_requirement() {
+    for which in 0..BEGINNINGS {
+        let drive = beginning(which);
+        let broken = judge(&drive.trace, 0, &all());
+        let shown = broken.as_ref().map(|(at, _, _)| told(&drive.trace, at.saturating_sub(3), *at));
+        assert!(broken.is_none(), "start {which}: {broken:?}\n{}", shown.unwrap_or_default());
+    }
+}
+
+/// No claim is empty: each demands something in some random drive, and keeps it. And none is blind: a wrong output that is
+/// planted into a recorded drive is refused.
+#[test]
+fn every_claim_demands_something_and_refuses_a_planted_fault() {
+    let claims = all();
+    let mut kept = vec![0_u32; claims.len()];
+    let mut refused = vec![false; claims.len()];
+    for seed in 0..400_u64 {
+        let which = usize::try_from(seed % 15).unwrap_or(0);
+        let events: Vec<u64> = (0..if which < LONG { 25 } else { 8 }).map(|index| seed * 1_000 + index).collect();
+        let (drive, from) = drive_of(which, &events);
+        let facts = Facts::of(&drive.trace);
+        for (index, claim) in claims.iter().enumerate() {
+            let cycles = from..drive.trace.cycles.len();
+            let outcomes: Vec<_> = cycles.map(|at| (at, (claim.judge)(&facts, at))).collect();
+            let demanded: Vec<_> = outcomes.iter().filter(|(_, outcome)| *outcome == Outcome::Kept).collect();
+            kept[index] += u32::try_from(demanded.len()).unwrap_or(u32::MAX);
+            if refused[index] {
+                continue;
+            }
+            // Where it demands something; and a few places where it does not yet.
+            let some = demanded.first().into_iter().chain(demanded.last()).map(|(at, _)| *at);
+            let others = outcomes.iter().step_by(outcomes.len() / 4 + 1).map(|(at, _)| *at);
+            for at in some.chain(others).collect::<Vec<_>>() {
+                let mut wrong = drive.trace.clone();
+                (claim.plant)(&mut wrong.cycles[at]);
+                wrong.cycles.truncate(at + 1);
+                let outcome = (claim.judge)(&Facts::of(&wrong), at);
+                refused[index] |= matches!(outcome, Outcome::Broken(_));
+            }
+        }
+        if seed >= 60 && kept.iter().all(|count| *count > 0) && refused.iter().all(|refused| *refused) {
+            return;
+        }
+    }
+    for (index, claim) in claims.iter().enumerate() {
+        assert!(kept[index] > 0, "{}: never demanded anything", claim.id);
+        assert!(refused[index], "{}: refused no planted fault", claim.id);
+    }
+}
