@@ -3,7 +3,7 @@
 use supervisor_core::LIMITS;
 use supervisor_core::kernel::fits;
 
-/// RET-1a, SELF-11g, PHB-1: what fits stays inside the room, and one per cent more would not; all of it fits where it costs
+/// RET-1a, SELF-11g, PHB-1a: what fits stays inside the room, and one per cent more would not; all of it fits where it costs
 /// nothing.
 #[test]
 fn ret_1_fits_by_its_contract() {

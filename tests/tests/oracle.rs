@@ -68,7 +68,15 @@ fn judged(which: usize, events: &[u64]) -> Result<(), TestCaseError> {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 220, max_shrink_iters: 400, failure_persistence: None, rng_seed: SEED, ..ProptestConfig::default() })]
 
-    /// Random drives of up to 60 events keep every claim.
+    /// AUX-1a, AUX-1b, AUX-1c, BODY-1a, BODY-1b, CMD-6a, E2E-2a, E2E-2b, E2E-2c, E2E-2d, E2E-2g, E2E-2h, EPB-1a,
+    /// EPB-1d, FUS-3d, GEAR-1a, GEAR-1b, GEAR-1c, GEAR-1d, HV-1a, HV-1b, HV-1c, HV-1d, MIT-4g, MIT-5a, MIT-6d, MODE-1a,
+    /// MODE-1b, MODE-1c, MODE-1e, PHB-1a, PHB-1b, RET-1b, RSP-1n, RULE-1b, RULE-5a, RXN-1a, SEAT-1a, SEAT-2a, SEAT-3a,
+    /// SEAT-3d, SEAT-3e, SEAT-3f, SEAT-4a, SEAT-4b, SEAT-4c, SEAT-5a, SEAT-5b, SEAT-5c, SEAT-5d, SEAT-6a, SEAT-6b,
+    /// SEAT-6c, SEAT-7a, SEAT-7b, SEAT-7d, SEAT-7e, SEAT-7f, SEAT-7g, SEAT-7i, SEAT-7j, SEAT-7k, SEAT-8a, SEAT-8b,
+    /// SEAT-8c, SEAT-9a, SEAT-9c, SEAT-10a, SEAT-11d, SELF-2b, SELF-11a, SELF-11c, SELF-11d, SPD-1a, TRQ-1a, TRQ-1b,
+    /// TRQ-1c, TRQ-2a, TRQ-2b, TRQ-2c, TRQ-2d, TRQ-2e, TRQ-3a, TRQ-3c, TRQ-5a, TRQ-5b, TRQ-5c, TRQ-5d, TRQ-5e, TRQ-5g,
+    /// TRQ-6a, TRQ-6b, TRQ-6c, VLC-1d, VLC-2b, VLC-2c, VLC-2d, VLC-3a: random drives of up to 60 events keep every
+    /// claim.
     #[test]
     fn random_drives_keep_every_requirement(which in 0..LONG, events in vec(any::<u64>(), 1..60)) {
         judged(which, &events)?;
@@ -78,14 +86,14 @@ proptest! {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 40, max_shrink_iters: 100, failure_persistence: None, rng_seed: SEED, ..ProptestConfig::default() })]
 
-    /// The same at the end of the ten minutes, and in the shutdown.
+    /// SEAT-7a, SEAT-7b, SEAT-7f, SEAT-8a, HV-1a: the same at the end of the ten minutes, and in the shutdown.
     #[test]
     fn the_shutdown_keeps_every_requirement(which in LONG..BEGINNINGS, events in vec(any::<u64>(), 1..30)) {
         judged(which, &events)?;
     }
 }
 
-/// The starts themselves keep every claim, from the reset on.
+/// SEAT-1a, SEAT-4a, SEAT-7a, MODE-1a: the starts themselves keep every claim, from the reset on.
 #[test]
 fn the_starts_keep_every_requirement() {
     for which in 0..BEGINNINGS {
@@ -96,7 +104,7 @@ fn the_starts_keep_every_requirement() {
     }
 }
 
-/// No claim is empty: each demands something in some random drive, and keeps it. And none is blind: a wrong output that is
+/// SEAT-5a, SEAT-7f, MIT-1a, TRQ-1a: no claim is empty: each demands something in some random drive, and keeps it. And none is blind: a wrong output that is
 /// planted into a recorded drive is refused.
 #[test]
 fn every_claim_demands_something_and_refuses_a_planted_fault() {

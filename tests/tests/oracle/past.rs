@@ -143,6 +143,7 @@ mod tests {
         Clock::adding(spans.iter().copied())
     }
 
+    /// SEAT-1a, SEAT-7a: what the claims are made of.
     #[test]
     fn previously_once_and_since_look_back_only() {
         let formula = series(".x..x.");
@@ -153,6 +154,7 @@ mod tests {
         assert_eq!(formula.or(&series("x.....")), series("xx..x."));
     }
 
+    /// SEAT-1a, SEAT-7a: what the claims are made of.
     #[test]
     fn held_for_counts_from_the_first_cycle_of_the_run() {
         let clock = clock(&[0, 10, 10, 50, 1, 9]);
@@ -165,6 +167,7 @@ mod tests {
         assert_eq!(formula.held_for(&clock, 0), formula);
     }
 
+    /// SEAT-1a, SEAT-7a: what the claims are made of.
     #[test]
     fn within_and_counted_measure_time() {
         let clock = clock(&[0, 10, 10, 50, 1, 9]);
