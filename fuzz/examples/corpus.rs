@@ -71,7 +71,11 @@ fn show(target: &str, run: Run) -> std::io::Result<bool> {
     files.iter().for_each(|bytes| run(bytes, &mut reached));
     let seconds = began.elapsed().as_secs_f64();
     println!("{target}: {} files\n{}", files.len(), reached.report());
-    println!("{:.0} streams a second, {:.0} cycles a second\n", files.len() as f64 / seconds, reached.cycles as f64 / seconds);
+    println!(
+        "{:.0} streams a second, {:.0} cycles a second\n",
+        files.len() as f64 / seconds,
+        reached.cycles as f64 / seconds
+    );
     Ok(reached.modes_missing().is_empty())
 }
 

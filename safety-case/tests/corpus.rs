@@ -10,7 +10,9 @@ fn replay(target: &str, run: fn(&[u8])) {
     let entries = std::fs::read_dir(&folder).into_iter().flatten().filter_map(Result::ok);
     let files: Vec<Vec<u8>> = entries.filter_map(|entry| std::fs::read(entry.path()).ok()).collect();
     assert!(!files.is_empty(), "fuzz/corpus/{target} is empty");
-    files.iter().for_each(|bytes| run(bytes));
+    for bytes in &files {
+        run(bytes);
+    }
 }
 
 /// What is no log is refused line by line, never a panic.
