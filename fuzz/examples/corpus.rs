@@ -7,28 +7,17 @@
 //! The streams come from a fixed seed: bytes of a small generator, and cuts of what was kept before. Exit code 1 if a mode is
 //! not reached.
 
-use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
 
 use supervisor_fuzz::Dice;
 use supervisor_fuzz::attack::{Reached, command_stream, wire_bytes};
+use supervisor_fuzz::corpus::{files, folder};
 
 type Run = fn(&[u8], &mut Reached);
 
 const TARGETS: [(&str, Run); 2] = [("command_stream", command_stream), ("wire_bytes", wire_bytes)];
 const SEED: u64 = 20_261_126;
-
-fn folder(target: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("corpus").join(target)
-}
-
-fn files(target: &str) -> std::io::Result<Vec<Vec<u8>>> {
-    let Ok(entries) = std::fs::read_dir(folder(target)) else { return Ok(Vec::new()) };
-    let mut files: Vec<PathBuf> = entries.map(|entry| entry.map(|entry| entry.path())).collect::<Result<_, _>>()?;
-    files.sort();
-    files.iter().map(std::fs::read).collect()
-}
 
 /// Tries `count` streams more; what reaches more than all before is kept as a file.
 fn make(target: &str, run: Run, count: usize) -> std::io::Result<()> {

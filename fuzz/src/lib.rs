@@ -5,6 +5,7 @@
 mod common;
 
 pub mod attack;
+pub mod corpus;
 pub mod host;
 
 pub use common::random::Dice;

@@ -1,15 +1,13 @@
 //! The committed corpus of the fuzz targets that read files, and what became of every finding.
 
+#[path = "../../fuzz/src/corpus.rs"]
+mod corpus;
 #[path = "../../fuzz/src/host.rs"]
 mod host;
 
-use std::path::Path;
-
 fn replay(target: &str, run: fn(&[u8])) {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../fuzz/corpus").join(target);
-    let entries = std::fs::read_dir(&folder).into_iter().flatten().filter_map(Result::ok);
-    let files: Vec<Vec<u8>> = entries.filter_map(|entry| std::fs::read(entry.path()).ok()).collect();
-    assert!(!files.is_empty(), "fuzz/corpus/{target} is empty");
+    let files = corpus::files(target).unwrap_or_default();
+    assert!(!files.is_empty(), "{} is empty", corpus::folder(target).display());
     for bytes in &files {
         run(bytes);
     }

@@ -3,22 +3,13 @@
 #[path = "../../fuzz/src/attack/mod.rs"]
 mod attack;
 mod common;
+#[path = "../../fuzz/src/corpus.rs"]
+mod corpus;
 
 use attack::{Reached, command_stream, wire_bytes};
-use std::path::Path;
-
-/// Every file of a target's corpus, in the order of their names.
-fn corpus(target: &str) -> Vec<Vec<u8>> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../fuzz/corpus").join(target);
-    let Ok(entries) = std::fs::read_dir(&folder) else { return Vec::new() };
-    let mut files: Vec<_> = entries.filter_map(|entry| entry.ok().map(|entry| entry.path())).collect();
-    files.sort();
-    files.iter().filter_map(|file| std::fs::read(file).ok()).collect()
-}
-
 fn replay(target: &str, run: fn(&[u8], &mut Reached)) -> Reached {
-    let files = corpus(target);
-    assert!(!files.is_empty(), "fuzz/corpus/{target} is empty");
+    let files = corpus::files(target).unwrap_or_default();
+    assert!(!files.is_empty(), "{} is empty", corpus::folder(target).display());
     let mut reached = Reached::default();
     for bytes in &files {
         run(bytes, &mut reached);

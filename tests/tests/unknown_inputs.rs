@@ -83,57 +83,10 @@ fn bus(situation: Situation) -> Bus {
     bus
 }
 
-/// Everything that can be unknown, by name: an input that is not here breaks this function.
+/// Everything that can be unknown, by name. What is seen on the bus is never unknown.
 fn fields() -> Vec<&'static str> {
-    macro_rules! names {
-        ($($field:ident),+ $(,)?) => {{
-            // What is seen on the bus is never unknown.
-            let Inputs { $($field: _,)+ foreign: _, second_sender: _ } = Inputs::NEVER;
-            vec![$(stringify!($field)),+]
-        }};
-    }
-    let mut all = names!(
-        seat,
-        wheel_speed,
-        motor_speed,
-        accelerator,
-        brake_pedal,
-        brake_switch,
-        steering_angle,
-        driver_torque,
-        selector,
-        gear,
-        epb,
-        epb_switch,
-        epb_mode,
-        key,
-        cruise_switch,
-        driver_set,
-        k1,
-        k4,
-        hv_current,
-        drive_stopped,
-        auxiliaries_stopped,
-        drive_limit,
-        executed_torque,
-        electric_limit,
-        friction_limit,
-        electric_actual,
-        mass,
-        axle_pressure,
-        deceleration,
-        abs,
-        asr,
-        stability,
-        ebs_red,
-        ebs_amber,
-        xbr_status,
-        eps,
-        hands_off,
-        ads,
-    );
-    all.extend(["radar", "camera"]);
-    all
+    let inputs = named::inputs(&Inputs::NEVER).into_iter().map(|(name, _)| name);
+    inputs.filter(|name| !["foreign", "second_sender"].contains(name)).chain(["radar", "camera"]).collect()
 }
 
 /// Input, how it becomes unknown, and what then no longer passes.

@@ -21,11 +21,12 @@ impl Prover for Reader {
         &self,
         copy: &Copy,
         harness: &Harness,
-        _: &str,
+        assertion: &str,
         _: Duration,
     ) -> Result<(Verdict, Option<Tools>), ProveError> {
         let text = fs::read_to_string(copy.root().join("supervisor/core/src/lib.rs")).unwrap_or_default();
-        let fails = harness.name == "finds_first" && text.contains("a <= 1");
+        // Another assertion fails before the hidden one.
+        let fails = harness.name == "finds_first" && text.contains("a <= 1") && assertion != "hidden";
         let slow = harness.name == "finds_first" && text.contains("a <= 2");
         let verdict = match (fails, slow) {
             (true, _) => Verdict::Failed("assertion".to_owned()),
@@ -65,9 +66,11 @@ fn workspace(root: &Path) {
         )
     };
     write(root, "proofs/harnesses.toml", &(harness("finds_first") + &harness("finds_nothing")));
+    write(root, "proofs/src/p.rs", "fn finds_first() {\n    assert!(hidden());\n}\n");
     let both = "\"finds_nothing\", \"finds_first\"";
     let list = "[drawn]\nseed = 1\ncount = 1\npackage = \"p\"\nwithin = 1\n".to_owned()
         + &mistake("one", "a < 1", "a <= 1", both)
+        + "assertion = \"hidden\"\n"
         + &mistake("two", "a < 2", "a <= 2", both)
         + &mistake("three", "a < 2", "a < 3", both)
         + &mistake("four", "a < 2", "missing < 2", both);

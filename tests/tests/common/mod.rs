@@ -4,6 +4,7 @@
 #![expect(dead_code, reason = "each test file uses a part of the bench")]
 
 pub mod always;
+pub mod named;
 pub mod random;
 pub mod stages;
 pub mod words;

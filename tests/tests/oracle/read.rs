@@ -1,5 +1,6 @@
 //! What one cycle says by itself: speeds, pedals, seat, objects. Exact integers, no memory.
 
+use crate::common::always::TABLE_1;
 use crate::common::*;
 use crate::trace::Cycle;
 
@@ -212,26 +213,6 @@ pub fn must_be_emergency(cycle: &Cycle) -> bool {
     perception_known(cycle)
         && objects(cycle).any(|(distance, offset, closing, _)| offset < 160 && nearer(distance, closing, 3_200, true))
 }
-/// S3 table 1: km/h and hundredths of a m/s².
-const TABLE_1: [(i64, i64); 16] = [
-    (0, 0),
-    (2, 135),
-    (4, 140),
-    (6, 145),
-    (8, 150),
-    (10, 155),
-    (15, 160),
-    (20, 165),
-    (25, 170),
-    (30, 173),
-    (35, 176),
-    (40, 180),
-    (45, 185),
-    (50, 195),
-    (55, 200),
-    (60, 220),
-];
-
 /// A deceleration as a fraction of 1/2048 m/s²: numerator and denominator.
 #[derive(Clone, Copy, Debug)]
 pub struct Exact(i64, i64);

@@ -1,5 +1,6 @@
 //! What is recorded of a drive, and how a drive is shown to people.
 
+use crate::common::named::{self, Named};
 use crate::common::*;
 use std::fmt::Write;
 
@@ -74,95 +75,13 @@ impl Recorder {
     }
 }
 
-/// Names and values of fields.
-macro_rules! fields {
-    ($of:expr, $($name:ident),+) => { vec![$((stringify!($name), format!("{:?}", $of.$name))),+] };
-}
-
-type Named = Vec<(&'static str, String)>;
-
-fn inputs_of(cycle: &Cycle) -> Named {
-    let mut named = fields!(
-        cycle.inputs,
-        seat,
-        wheel_speed,
-        motor_speed,
-        accelerator,
-        brake_pedal,
-        brake_switch,
-        steering_angle,
-        driver_torque,
-        selector,
-        gear,
-        epb,
-        epb_switch,
-        epb_mode,
-        key,
-        cruise_switch,
-        driver_set,
-        k1,
-        k4,
-        hv_current,
-        drive_stopped,
-        auxiliaries_stopped,
-        drive_limit,
-        executed_torque,
-        electric_limit,
-        friction_limit,
-        electric_actual,
-        mass,
-        axle_pressure,
-        deceleration,
-        abs,
-        asr,
-        stability,
-        ebs_red,
-        ebs_amber,
-        xbr_status,
-        eps,
-        hands_off,
-        ads,
-        foreign,
-        second_sender
-    );
-    named.extend(fields!(cycle, radar, camera, radar_known, camera_known));
-    named
-}
-fn commands_of(cycle: &Cycle) -> Named {
-    let commands = cycle.commands;
-    fields!(
-        commands,
-        drive,
-        target_speed,
-        brake,
-        retarder,
-        gear,
-        epb,
-        steering,
-        contactors,
-        auxiliaries,
-        warnings,
-        body,
-        mode
-    )
-}
-fn outputs_of(cycle: &Cycle) -> Named {
-    let outputs = cycle.outputs;
-    fields!(
-        outputs,
-        drive,
-        target_speed,
-        brake,
-        retarder,
-        gear,
-        epb,
-        steering,
-        contactors,
-        auxiliaries,
-        warnings,
-        body,
-        mode
-    )
+/// What the cycle reads: the inputs, and what the sensors see.
+fn reads(cycle: &Cycle) -> Named {
+    let Cycle { radar, camera, radar_known, camera_known, .. } = cycle;
+    let mut all = named::inputs(&cycle.inputs);
+    all.push(("radar", format!("{radar:?}, known: {radar_known}")));
+    all.push(("camera", format!("{camera:?}, known: {camera_known}")));
+    all
 }
 
 /// The drive up to a cycle, readable: one line for each field that changes, with the time since the reset in ms and the step.
@@ -176,7 +95,7 @@ pub fn told(trace: &Trace, from: usize, until: usize) -> String {
         if at + 1 < from {
             continue;
         }
-        let now = [inputs_of(cycle), commands_of(cycle), outputs_of(cycle)];
+        let now = [reads(cycle), named::commands(&cycle.commands), named::outputs(&cycle.outputs)];
         for ((group, now), last) in ["reads", "is asked", "GIVES"].iter().zip(&now).zip(&last) {
             for (index, (name, value)) in now.iter().enumerate() {
                 if last.get(index).is_none_or(|(_, before)| before != value) {
