@@ -54,13 +54,24 @@ fn fields(protection: Protection, payload: u64) -> Option<(u8, u64)> {
     }
 }
 
+/// How many values the counter of a frame has: AUTOSAR Profile 11 counts 0 to 14, 15 is reserved; of J1939 TSC1 counts 0 to 7
+/// (SPN 4206), 8 to 14 are reserved, 15 is not available; XBR counts 0 to 15 (SPN 3189).
+const fn valid_counters(protection: Protection) -> u8 {
+    match protection {
+        Protection::Profile11 => 15,
+        Protection::Tsc1 => 8,
+        Protection::Xbr => 16,
+        Protection::Bare => 0,
+    }
+}
+
 /// E2E-1b, CMD-7c: a protected frame is intact exactly when its check field is right and its counter is one.
 #[must_use]
 pub fn e2e_1b_intact_exactly(protection: Protection, id: u32, payload: u64) -> bool {
     let opened = protection.open(id, payload);
     match fields(protection, payload) {
         None => opened == Ok(None),
-        Some((counter, _)) if counter >= protection.counts() => opened == Err(Fault::NoCounter),
+        Some((counter, _)) if counter >= valid_counters(protection) => opened == Err(Fault::NoCounter),
         Some((_, check)) if check != check_field(protection, id, payload) => opened == Err(Fault::Checksum),
         Some((counter, _)) => opened == Ok(Some(counter)),
     }

@@ -147,13 +147,13 @@ pub fn mit_8c_only_time_to_collision_obliges(cycle: &Cycle<'_>) -> bool {
     )
 }
 
-/// MIT-6d, MIT-8d: what is not obliged stays permitted: the full cap is free as soon as perception calls for any level or
-/// for the full cap, and until the object is known to be gone or the bus has stood. The gates of MIT-6b and MIT-6c have no
-/// part in it.
+/// MIT-6d, MIT-8d: what is not obliged stays permitted: the full cap is free as soon as perception calls for level 3 or for
+/// the full cap, and until the object is known to be gone or the bus has stood. The gates of MIT-6b and MIT-6c have no part in
+/// it. What levels 1 and 2 demand lies below the cap of comfort, or raises it (PHB-1d).
 #[must_use]
 pub fn mit_6d_braking_stays_permitted(cycle: &Cycle<'_>) -> bool {
     let (old, new) = (&cycle.old.mitigation, &cycle.new.mitigation);
-    let danger = cycle.threat.level != Level::None || cycle.threat.emergency;
+    let danger = cycle.threat.level == Level::Three || cycle.threat.emergency;
     let ended = over(cycle) || lasted(new.gone, cycle.config.level_gone);
     new.permitted == (danger || (old.permitted && !ended))
         && implies(new.permitted, cycle.envelope.brake.cap.most >= cycle.config.brake_cap)

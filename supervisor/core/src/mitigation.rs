@@ -106,7 +106,7 @@ impl Mitigation {
                 || (by_driver && angle.is_some_and(|angle| angle > limit.raw().unsigned_abs()))
         };
 
-        let danger = threat.emergency || threat.level != Level::None;
+        let danger = threat.emergency || threat.level == Level::Three;
         let braked = matches!(evidence.brake_pedal, BrakePedal::Pressed(_)) || inputs.epb.is(EpbState::Applied);
         Self {
             one: enter(Level::One, enter_one) || (self.one && !leaves(exit_one)),

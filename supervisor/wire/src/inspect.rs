@@ -7,6 +7,7 @@ pub use crate::link::Link;
 pub use crate::list::{Entry, List};
 use crate::message::Source;
 pub use crate::message::Values;
+use crate::qualifier::Timing;
 use crate::refusal::Fault;
 use crate::sender::Sender;
 use crate::table::Message;
@@ -34,4 +35,29 @@ pub fn write(message: Message, values: &Values) -> u64 {
 #[must_use]
 pub fn identify(id: u32) -> Option<(Message, Source)> {
     Message::identify(id)
+}
+
+impl Link {
+    /// The same state, of this message.
+    #[must_use]
+    pub const fn of(mut self, message: Message) -> Self {
+        self.message = message;
+        self
+    }
+
+    /// The same state, with these times.
+    #[must_use]
+    pub const fn timed(mut self, timing: Timing) -> Self {
+        self.timing = timing;
+        self
+    }
+}
+
+impl Sender {
+    /// The counter of the last frame of this message.
+    #[must_use]
+    pub fn counter(&self, message: Message) -> Option<u8> {
+        let [last, _] = self.slots.get(message.number())?.sent;
+        Some(last?.counter)
+    }
 }

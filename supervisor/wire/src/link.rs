@@ -16,8 +16,8 @@ const GREATEST_STEP: u8 = 3;
 #[derive(Clone, Copy, Debug)]
 #[cfg_attr(kani, derive(kani::Arbitrary))]
 pub struct Link {
-    message: Message,
-    timing: Timing,
+    pub(crate) message: Message,
+    pub(crate) timing: Timing,
     /// Counter of the last intact frame, forgotten after a gap.
     counter: Option<u8>,
     /// When it came.
@@ -45,20 +45,6 @@ impl Link {
             fresh: false,
             idle: false,
         }
-    }
-
-    /// The same state, of this message.
-    #[cfg(kani)]
-    #[must_use]
-    pub const fn of(self, message: Message) -> Self {
-        Self { message, ..self }
-    }
-
-    /// The same state, with these times.
-    #[cfg(kani)]
-    #[must_use]
-    pub const fn timed(self, timing: Timing) -> Self {
-        Self { timing, ..self }
     }
 
     /// Checks a frame and takes its signals over into `values`; how many frames before it are lost.

@@ -19,10 +19,10 @@ const ECHO: Millis = Millis::new(20);
 /// A frame that was sent.
 #[derive(Clone, Copy, Debug)]
 #[cfg_attr(kani, derive(kani::Arbitrary))]
-struct Sent {
+pub(crate) struct Sent {
     /// Without counter and check field.
     payload: u64,
-    counter: u8,
+    pub(crate) counter: u8,
     at: Millis,
     /// It has come back: what looks the same from now on is of somebody else.
     echoed: bool,
@@ -31,18 +31,18 @@ struct Sent {
 /// What the sender keeps of one message.
 #[derive(Clone, Copy, Debug)]
 #[cfg_attr(kani, derive(kani::Arbitrary))]
-struct Slot {
+pub(crate) struct Slot {
     /// When it was due last.
     due: Millis,
     /// The last frame and the one before it.
-    sent: [Option<Sent>; 2],
+    pub(crate) sent: [Option<Sent>; 2],
 }
 
 /// Sends frames: keeps counters and periods.
 #[derive(Clone, Debug)]
 #[cfg_attr(kani, derive(kani::Arbitrary))]
 pub struct Sender {
-    slots: [Slot; Message::COUNT],
+    pub(crate) slots: [Slot; Message::COUNT],
     /// Cycles of the next object lists, of radar and camera.
     #[cfg(feature = "simulate")]
     cycles: [Count; 2],
@@ -64,14 +64,6 @@ impl Sender {
             #[cfg(feature = "simulate")]
             cycles: [Count::ZERO; 2],
         }
-    }
-
-    /// The counter of the last frame of this message.
-    #[cfg(any(kani, feature = "inspect"))]
-    #[must_use]
-    pub fn counter(&self, message: Message) -> Option<u8> {
-        let [last, _] = self.slots.get(message.number())?.sent;
-        Some(last?.counter)
     }
 
     /// Sends the outputs that are due or have changed, as the supervisor (CMD-3d, SELF-8a).
