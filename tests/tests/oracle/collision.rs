@@ -105,8 +105,8 @@ pub fn brake_passes(facts: &Facts<'_>, at: usize) -> Outcome {
     )
 }
 
-/// PHB-1a: brake and retarder together at most 3.5 m/s² on a road known clear, if the driver does not brake. In the narrowest
-/// reading of "clear" (rule 2): for 0.5 s no emergency, no level, and nothing that closes; see `findings`.
+/// PHB-1a, PHB-1b: brake and retarder together at most 3.5 m/s² without an emergency, if the driver does not brake; levels 1 and 2
+/// demand less.
 pub fn comfort_cap(facts: &Facts<'_>, at: usize) -> Outcome {
     let cycle = facts.cycle(at);
     let premise = facts.clear.at(at) && pedal_clear(&cycle.inputs) && !facts.safe.at(at);

@@ -43,7 +43,7 @@ pub struct Facts<'a> {
     pub granted: Series,
     /// Nothing may oblige, no actuator may have deviated, nobody else commands: what is asked for is to pass.
     pub calm: Series,
-    /// The road has been known clear for more than 0.5 s: no emergency, no level, nothing closes (PHB-1a).
+    /// The road is clear in every reading: perception known, no emergency, no level 3, and what was one is gone (PHB-1a, R-aa).
     pub clear: Series,
     /// Neither gear nor contactor nor parking brake has changed for a while: none can have moved past us (SELF-10).
     pub still: Series,
@@ -91,9 +91,7 @@ impl<'a> Facts<'a> {
         };
         facts.granted = granted(&facts);
         facts.calm = calm(&facts);
-        let clear = |cycle: &Cycle| perception_known(cycle) && !may_be_emergency(cycle) && nothing_closes(cycle);
-        let mitigates = Series::of(count, |at| facts.may_mitigate(at));
-        facts.clear = facts.series(clear).and(&mitigates.not()).held_for(&facts.permission, 520);
+        facts.clear = clear(&facts);
         facts
     }
     /// A cycle.
@@ -115,10 +113,6 @@ impl<'a> Facts<'a> {
     /// A level must run in this cycle.
     pub fn mitigates(&self, at: usize) -> bool {
         self.latches.iter().any(|latch| latch.must.at(at))
-    }
-    /// A level may run in this cycle.
-    pub fn may_mitigate(&self, at: usize) -> bool {
-        self.latches.iter().any(|latch| latch.may.at(at))
     }
 }
 
@@ -227,6 +221,16 @@ fn latch(trace: &Trace, [safety, permission]: [&Clock; 2], level: usize) -> Both
     Both { must: may_end.not().since(&enters), may: must_end.not().since(&may_enter) }
 }
 
+/// PHB-1a, PHB-1b, MIT-6d, R-aa: perception known, no emergency in this cycle, no level 3, and since the last emergency nothing has
+/// been closing for 0.5 s, known throughout.
+fn clear(facts: &Facts<'_>) -> Series {
+    let three = &facts.latches[2].may;
+    let emergency = facts.series(may_be_emergency).or(three);
+    let known = facts.series(perception_known);
+    let gone = known.and(&facts.series(nothing_closes)).held_for(&facts.permission, 520);
+    known.and(&gone.not().since(&emergency).not())
+}
+
 /// TRQ-2b, TRQ-3c, MODE-1, E2E-2f, SELF-3g: cruise switch on, brake pedal not pressed or unknown, brake frames not lost beyond
 /// their hold of 500 ms (E2E-2 as one sentence: "last request <= 500 ms, then ramp to 0, warn, mode ends"), no obligation, no
 /// clock fault, since the driver's set.
@@ -253,7 +257,7 @@ fn calm(facts: &Facts<'_>) -> Series {
         let told = i64::from(facts.before(at).drive.torque.raw());
         !executed_at_most(&facts.cycle(at).inputs, told + 5)
     });
-    let mitigates = Series::of(count, |at| facts.may_mitigate(at));
+    let mitigates = Series::of(count, |at| facts.latches.iter().any(|latch| latch.may.at(at)));
     let troubled = facts.leave.may.or(&mitigates).or(&facts.safe).or(&facts.fault).or(&lost);
     let deviates = excess.held_for(&facts.safety, 300).once().or(&others.within(&facts.permission, 4_000));
     troubled.or(&deviates).not()
