@@ -11,12 +11,13 @@ use std::process::ExitCode;
 use std::time::Instant;
 
 use supervisor_fuzz::Dice;
-use supervisor_fuzz::attack::{Reached, command_stream, wire_bytes};
+use supervisor_fuzz::attack::{Reached, command_stream, differential, wire_bytes};
 use supervisor_fuzz::corpus::{files, folder};
 
 type Run = fn(&[u8], &mut Reached);
 
-const TARGETS: [(&str, Run); 2] = [("command_stream", command_stream), ("wire_bytes", wire_bytes)];
+const TARGETS: [(&str, Run); 3] =
+    [("command_stream", command_stream), ("differential", differential), ("wire_bytes", wire_bytes)];
 const SEED: u64 = 20_261_126;
 
 /// Tries `count` streams more; what reaches more than all before is kept as a file.
@@ -73,7 +74,7 @@ fn main() -> std::io::Result<ExitCode> {
     if let [target, count] = arguments.as_slice() {
         let known = TARGETS.iter().find(|(name, _)| name == target);
         let (Some((target, run)), Ok(count)) = (known, count.parse()) else {
-            eprintln!("usage: corpus [command_stream|wire_bytes COUNT]");
+            eprintln!("usage: corpus [command_stream|differential|wire_bytes COUNT]");
             return Ok(ExitCode::from(2));
         };
         make(target, *run, count)?;

@@ -1,2 +1,7 @@
 #![no_main]
-libfuzzer_sys::fuzz_target!(|bytes: &[u8]| supervisor_fuzz::attack::command_stream(bytes, &mut Default::default()));
+use supervisor_fuzz::{attack, tally};
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
+    let mut reached = attack::Reached::default();
+    attack::command_stream(bytes, &mut reached);
+    tally::add(reached.cycles);
+});

@@ -3,9 +3,12 @@
 
 #[path = "../../tests/tests/common/mod.rs"]
 mod common;
+#[path = "../../tests/tests/oracle/mod.rs"]
+mod oracle;
 
 pub mod attack;
 pub mod corpus;
 pub mod host;
+pub mod tally;
 
 pub use common::random::Dice;

@@ -66,6 +66,23 @@ never end the replay.
 The JSON document (--json) is written while the replay goes on, one event per line; its schema is described in \
 safety-case/src/document.rs.";
 
+const MUTANTS: &str = "\
+Tests the tests: runs them once for every mutant that cargo-mutants lists of the shipped crates (an operator, a guard, a body,
+a field changed). All mutants are built once, each behind a switch, into target/mutants; then the test programs of the packages
+supervisor-tests and supervisor-proofs run for each mutant, those first that catch most in the least time, until one fails.
+Nothing but tests counts here; what the proofs catch is `supervise mistakes`.
+
+A mutant that no test notices survived; tests/mutants.toml may explain why it changes nothing. The record is tests/mutants.json;
+it is stale as soon as a token of the shipped sources changed.
+
+Examples:
+  supervise mutants                     all of them; goes on where a run was broken off
+  supervise mutants --within 30         no further one after half an hour
+  supervise mutants --shard 1/4         one part of four, on a machine of its own
+  supervise mutants --check             what the record shows
+
+Exit codes: 0 every mutant is caught or its survival explained; 1 one is not, or was not run, or the record is stale;
+2 something cannot be read or built; 4 cargo mutants is not here, nothing was run.";
 const TRACE: &str = "\
 Every requirement of safety-case/analysis has one id, SEAT-5a, and SEAT-5 is the group of its demands. The sources carry \
 these ids, and this command makes the table from them: requirement, code, limits, proofs, tests. Nothing is kept by hand.
@@ -160,6 +177,9 @@ pub enum Command {
     /// caught by a proof on the present sources, or a drawn one survives without an explanation; with 4 if cargo kani
     /// (or, for --drawn, cargo mutants) is not installed: nothing was run.
     Mistakes(Mistakes),
+    /// Test the tests: run them once for every mutant of the shipped crates
+    #[command(long_about = MUTANTS)]
+    Mutants(Mutants),
     /// Trace every requirement to its code, limits, proofs and tests, by the ids in the sources
     #[command(long_about = TRACE)]
     Trace(TraceArgs),
@@ -398,6 +418,26 @@ pub struct Mistakes {
     /// Run nothing: write the table of the record into this file, between its marks
     #[arg(long, value_name = "FILE", conflicts_with_all = ["name", "drawn", "shard", "again"])]
     pub write: Option<PathBuf>,
+}
+
+/// Arguments of `mutants`.
+#[derive(Debug, Args)]
+pub struct Mutants {
+    /// Only the K-th of N parts
+    #[arg(long, value_name = "K/N", value_parser = part)]
+    pub shard: Option<(usize, usize)>,
+    /// How many at a time; without it, one for each core
+    #[arg(long, value_name = "COUNT")]
+    pub jobs: Option<usize>,
+    /// Begin no further mutant after so many minutes; the next run goes on
+    #[arg(long, value_name = "MINUTES")]
+    pub within: Option<u64>,
+    /// Run again what the record already has for the present sources
+    #[arg(long)]
+    pub again: bool,
+    /// Run nothing: say what the record does not show on the present sources
+    #[arg(long, conflicts_with_all = ["shard", "within", "again"])]
+    pub check: bool,
 }
 
 /// Arguments of `cost`.

@@ -18,6 +18,7 @@ pub mod document;
 pub mod grid;
 pub mod lanes;
 pub mod mistakes;
+pub mod mutants;
 pub mod notes;
 pub mod number;
 pub mod page;

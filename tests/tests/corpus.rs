@@ -5,8 +5,11 @@ mod attack;
 mod common;
 #[path = "../../fuzz/src/corpus.rs"]
 mod corpus;
+#[path = "oracle/mod.rs"]
+mod oracle;
 
-use attack::{Reached, command_stream, wire_bytes};
+use attack::{Reached, command_stream, differential, wire_bytes};
+
 fn replay(target: &str, run: fn(&[u8], &mut Reached)) -> Reached {
     let files = corpus::files(target).unwrap_or_default();
     assert!(!files.is_empty(), "{} is empty", corpus::folder(target).display());
@@ -30,4 +33,11 @@ fn command_streams_keep_every_property() {
 fn frames_keep_every_property() {
     let reached = replay("wire_bytes", wire_bytes);
     assert!(reached.size() > 100, "{} modes and verdicts: the corpus has lost its reach", reached.size());
+}
+
+/// SELF-2b: the independent oracle agrees in every cycle of its corpus, and the corpus reaches every mode.
+#[test]
+fn the_oracle_agrees() {
+    let reached = replay("differential", differential);
+    assert_eq!(reached.modes_missing(), Vec::<String>::new());
 }

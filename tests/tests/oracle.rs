@@ -4,41 +4,18 @@
 //!
 //! Every claim is judged in every cycle of random drives, and is shown to fail where a wrong output is planted.
 
-#[path = "oracle/claims.rs"]
-mod claims;
-#[path = "oracle/collision.rs"]
-mod collision;
 mod common;
-#[path = "oracle/drive.rs"]
-mod drive;
-#[path = "oracle/facts.rs"]
-mod facts;
-#[path = "oracle/findings.rs"]
-mod findings;
-#[path = "oracle/gearbox.rs"]
-mod gearbox;
-#[path = "oracle/lost.rs"]
-mod lost;
-#[path = "oracle/past.rs"]
-mod past;
-#[path = "oracle/read.rs"]
-mod read;
-#[path = "oracle/seat.rs"]
-mod seat;
-#[path = "oracle/starts.rs"]
-mod starts;
-#[path = "oracle/trace.rs"]
-mod trace;
-#[path = "oracle/voltage.rs"]
-mod voltage;
+#[path = "oracle/mod.rs"]
+mod oracle;
 
-use claims::{Outcome, all, judge};
-use facts::Facts;
+use common::random::Dice;
+use oracle::claims::{Outcome, all, judge};
+use oracle::facts::Facts;
+use oracle::starts::{BEGINNINGS, LONG, beginning, event};
+use oracle::trace::{Recorder, told};
 use proptest::collection::vec;
 use proptest::prelude::{ProptestConfig, TestCaseError, any, proptest};
 use proptest::test_runner::RngSeed;
-use starts::{BEGINNINGS, LONG, beginning, event};
-use trace::{Recorder, told};
 
 /// The same drives in every run; `PROPTEST_RNG_SEED` and `PROPTEST_CASES` do not reach them, another seed here does.
 const SEED: RngSeed = RngSeed::Fixed(20_261_126);
@@ -48,7 +25,7 @@ fn drive_of(which: usize, events: &[u64]) -> (Recorder, usize) {
     let mut drive = beginning(which);
     let from = drive.trace.cycles.len();
     for seed in events {
-        event(&mut drive, *seed);
+        event(&mut drive, &mut Dice::Number(*seed));
     }
     (drive, from)
 }

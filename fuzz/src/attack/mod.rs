@@ -1,10 +1,12 @@
 //! What each target does with its bytes. `cargo fuzz` runs it for as long as it likes; `tests/tests/corpus.rs` runs the same
 //! functions over the committed corpus, on a stable compiler.
 
+mod differential;
 mod reached;
 mod stream;
 mod wire;
 
+pub use differential::differential;
 pub use reached::Reached;
 pub use stream::command_stream;
 pub use wire::wire_bytes;

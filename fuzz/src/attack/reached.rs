@@ -3,7 +3,9 @@
 use std::collections::BTreeSet;
 use std::fmt::Debug;
 
-use crate::common::{Channel, Decision, DrivingMode, ExitReason, Kind, Level, Mode, Occupancy, Reason, Record, Stage};
+use crate::common::{
+    Channel, Decision, DrivingMode, ExitReason, Kind, Level, Mode, Occupancy, Reason, Record, Stage, Status, Verdicts,
+};
 
 /// What was seen so far.
 #[derive(Clone, Debug, Default)]
@@ -38,8 +40,12 @@ fn modes() -> BTreeSet<String> {
 impl Reached {
     /// Takes in one cycle.
     pub fn look(&mut self, decision: &Decision) {
+        self.look_at(&decision.status, &decision.verdicts, decision.outputs.mode);
+    }
+
+    /// The same of what was kept of a cycle.
+    pub fn look_at(&mut self, status: &Status, verdicts: &Verdicts, mode: DrivingMode) {
         self.cycles += 1;
-        let status = &decision.status;
         let seen = [
             named("occupancy", status.occupancy),
             named("shutdown", status.stage),
@@ -47,12 +53,12 @@ impl Reached {
             named("mode", status.mode),
             named("exit", status.exit),
             named("record", status.record),
-            named("mode output", decision.outputs.mode),
+            named("mode output", mode),
             named("safe state", status.safe_state),
             named("parked by leave", status.parked_by_leave),
         ];
         self.modes.extend(seen);
-        for (channel, verdict) in decision.verdicts.iter() {
+        for (channel, verdict) in verdicts.iter() {
             self.reasons.insert(verdict.reason);
             self.verdicts.insert((channel, verdict.kind, verdict.reason));
         }

@@ -2,17 +2,17 @@
 //! and raw ones.
 
 use super::{Reached, judge};
-use crate::common::random::{Dice, change_command, change_input, change_scene};
-use crate::common::{
-    Commands, Config, Inputs, Millis, Outputs, Record, ResetCause, Scene, Sealed, Supervisor, healthy,
-};
+use crate::common::random::{Dice, STARTS, change_bus, change_command, change_input, change_scene, cycle, obey, start};
+use crate::common::{Commands, Config, Inputs, Millis, Scene};
 use supervisor::wire::{Frame, Message, Receiver, Sender};
 
 /// So many cycles at most.
 const LONGEST: u64 = 1_000;
+/// How long the senders are heard before the first step, in cycles: long enough for every one of them to qualify.
+const HEARD: u32 = 100;
 
 /// What the senders on the bus say.
-struct Bus {
+struct Road {
     sensors: Sender,
     controller: Sender,
     inputs: Inputs,
@@ -21,41 +21,51 @@ struct Bus {
     last: Option<Frame>,
 }
 
-/// Events on the bus, and cycles of the supervisor that listens to it.
+/// Events on the bus, and cycles of the supervisor that listens to it: the first byte says where it begins, then the link comes up.
 ///
 /// # Panics
-/// If a property does not hold in a cycle.
+/// If a property, or a claim of the bench's own oracle, does not hold in a cycle.
 pub fn wire_bytes(bytes: &[u8], reached: &mut Reached) {
-    let Ok(sealed) = Sealed::from_default() else { return };
     let mut dice = Dice::Bytes(bytes);
-    let mut supervisor = Supervisor::new(sealed, ResetCause::PowerOn, Some(Record::None));
-    let mut receiver = Receiver::new(&Config::DEFAULT);
-    let mut bus = Bus {
+    let mut bus = start(dice.below(STARTS));
+    let mut road = Road {
         sensors: Sender::new(),
         controller: Sender::new(),
-        inputs: healthy(),
-        scene: Scene::clear(),
-        commands: Outputs::NEUTRAL.as_commands(),
+        inputs: bus.inputs,
+        scene: bus.scene.clone(),
+        commands: bus.commands,
         last: None,
     };
-    let (mut now, end) = (1_000_u32, reached.cycles + LONGEST);
+    let mut receiver = Receiver::new(&Config::DEFAULT);
+    for ago in (0..HEARD).rev() {
+        let now = bus.now.wrapping_sub(ago * 10);
+        send(&mut dice, now, false, &mut road, &mut receiver);
+        let _ = receiver.sample(Millis::new(now));
+    }
+    let end = reached.cycles + LONGEST;
     while !dice.is_used_up() && reached.cycles < end {
-        match dice.below(8) {
-            0 => raw(&mut dice, now, &mut receiver),
-            1 => meaningful(&mut dice, now, &mut receiver),
-            2 => change_input(&mut dice, &mut bus.inputs),
-            3 => change_command(&mut dice, &mut bus.commands),
-            4 => change_scene(&mut dice, &mut bus.scene),
+        if let (Some(decision), false) = (bus.last, dice.one_in(8)) {
+            obey(&decision.outputs, &mut road.inputs);
+        }
+        match dice.below(10) {
+            0 => raw(&mut dice, bus.now, &mut receiver),
+            1 => meaningful(&mut dice, bus.now, &mut receiver),
+            2 => change_bus(&mut dice, &mut road.inputs),
+            3 => change_input(&mut dice, &mut road.inputs),
+            4 | 5 => change_command(&mut dice, &mut road.commands),
+            6 => change_scene(&mut dice, &mut road.scene),
             _ => {
                 let (count, tampers) = (dice.of(&[1, 1, 2, 5, 30, 110]), dice.one_in(3));
                 for _ in 0..count {
-                    now = now.wrapping_add(crate::common::random::cycle(&mut dice));
-                    send(&mut dice, now, tampers, &mut bus, &mut receiver);
+                    let elapsed = cycle(&mut dice);
+                    let now = bus.now.wrapping_add(elapsed);
+                    send(&mut dice, now, tampers, &mut road, &mut receiver);
                     let sample = receiver.sample(Millis::new(now));
-                    let old = supervisor.image().decode();
-                    let (inputs, scene, commands) = (sample.inputs, sample.scene, sample.commands);
-                    let decision = supervisor.step(Millis::new(now), inputs, scene, commands);
-                    judge(old, now, &sealed, (inputs, scene, commands), &decision);
+                    let (inputs, scene, commands) = (*sample.inputs, sample.scene.clone(), *sample.commands);
+                    (bus.inputs, bus.scene, bus.commands) = (inputs, scene.clone(), commands);
+                    let old = bus.state();
+                    let decision = bus.step_by(elapsed);
+                    judge(old, now, bus.sealed(), (&inputs, &scene, &commands), &decision);
                     reached.look(&decision);
                 }
             }
@@ -79,9 +89,9 @@ fn meaningful(dice: &mut Dice<'_>, now: u32, receiver: &mut Receiver) {
 }
 
 /// What is due is sent; a tamperer loses, breaks, repeats, cuts or doubles some of it.
-fn send(dice: &mut Dice<'_>, now: u32, tampers: bool, bus: &mut Bus, receiver: &mut Receiver) {
+fn send(dice: &mut Dice<'_>, now: u32, tampers: bool, road: &mut Road, receiver: &mut Receiver) {
     let now = Millis::new(now);
-    let Bus { sensors, controller, inputs, scene, commands, last } = bus;
+    let Road { sensors, controller, inputs, scene, commands, last } = road;
     let mut put = |frame: Frame| {
         let mut sent = frame;
         match if tampers { dice.below(16) } else { 15 } {

@@ -6,6 +6,7 @@ mod cost;
 mod drives;
 mod limits;
 mod mistakes;
+mod mutants;
 mod prove;
 mod replay;
 mod trace;
@@ -39,6 +40,7 @@ pub fn run(cli: &Cli) -> ExitCode {
         Some(Command::Analysis(arguments)) => analysis::run(arguments),
         Some(Command::Prove(arguments)) => prove::run(arguments),
         Some(Command::Mistakes(arguments)) => mistakes::run(arguments),
+        Some(Command::Mutants(arguments)) => mutants::run(arguments),
         Some(Command::Trace(arguments)) => trace::run(arguments),
         Some(Command::Cost(arguments)) => cost::run(arguments),
     };

@@ -1,5 +1,6 @@
 //! Mistakes drawn by a seed from the list that cargo-mutants makes.
 
+use std::ops::Range;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
@@ -7,6 +8,7 @@ use serde::Deserialize;
 use sha2::{Digest, Sha256};
 
 use super::change::{Change, source};
+use crate::mutants::Genre;
 use crate::prove::ProveError;
 
 /// A place in a file, both counted from 1.
@@ -30,6 +32,7 @@ pub struct Listed {
     /// The source file.
     pub file: String,
     replacement: String,
+    genre: String,
     span: Span,
     function: Option<Function>,
 }
@@ -44,6 +47,32 @@ impl Listed {
     #[must_use]
     pub fn function(&self) -> &str {
         self.function.as_ref().map_or("", |function| &function.function_name)
+    }
+
+    /// What kind of mutation it is; nothing if cargo-mutants has a new one.
+    #[must_use]
+    pub fn genre(&self) -> Option<Genre> {
+        match self.genre.as_str() {
+            "FnValue" => Some(Genre::Body),
+            "BinaryOperator" => Some(Genre::Binary),
+            "UnaryOperator" => Some(Genre::Unary),
+            "MatchArm" => Some(Genre::Arm),
+            "MatchArmGuard" => Some(Genre::Guard),
+            "StructField" => Some(Genre::Field),
+            _ => None,
+        }
+    }
+
+    /// What stands there instead.
+    #[must_use]
+    pub fn replacement(&self) -> &str {
+        &self.replacement
+    }
+
+    /// Where it stands in the text of its file, in bytes.
+    #[must_use]
+    pub fn place(&self, text: &str) -> Option<Range<usize>> {
+        Some(offset(text, self.span.start)?..offset(text, self.span.end)?)
     }
 
     /// The file with the mistake in it.
@@ -109,7 +138,8 @@ mod tests {
     fn listed(name: usize) -> Listed {
         let place = Place { line: 1, column: 1 };
         let span = Span { start: place, end: place };
-        Listed { name: name.to_string(), file: String::new(), replacement: String::new(), span, function: None }
+        let (file, replacement, genre) = Default::default();
+        Listed { name: name.to_string(), file, replacement, genre, span, function: None }
     }
 
     fn names(seed: u64) -> Vec<String> {

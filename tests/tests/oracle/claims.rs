@@ -1,8 +1,8 @@
 //! What a claim is, and all of them.
 
-use crate::facts::Facts;
-use crate::trace::{Cycle, Trace};
-use crate::{collision, drive, gearbox, lost, seat, voltage};
+use super::facts::Facts;
+use super::trace::{Cycle, Trace};
+use super::{collision, drive, gearbox, lost, seat, voltage};
 
 /// What a claim says of a cycle.
 #[derive(Clone, Debug, PartialEq)]

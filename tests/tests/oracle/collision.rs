@@ -1,9 +1,9 @@
 //! Collision mitigation and phantom braking (S1 §3.1.2, spec section 3: MIT, PHB, RXN; SELF-2b for the brake).
 
-use crate::claims::{Claim, Outcome, demand};
+use super::claims::{Claim, Outcome, demand};
+use super::facts::Facts;
+use super::read::*;
 use crate::common::*;
-use crate::facts::Facts;
-use crate::read::*;
 
 /// The claims of this file.
 pub const CLAIMS: &[Claim] = &[
@@ -40,7 +40,7 @@ pub const CLAIMS: &[Claim] = &[
     Claim { id: "PHB-1b, MIT-6d, FUS-3d permission", judge: emergency_passes, plant: |cycle| brake_less(cycle, 7_168) },
 ];
 
-fn brake_less(cycle: &mut crate::trace::Cycle, most: u16) {
+fn brake_less(cycle: &mut super::trace::Cycle, most: u16) {
     cycle.outputs.brake.total = DecelMs2Q11::new(most);
 }
 

@@ -1,10 +1,10 @@
 //! Drive torque, the mode, and the parts of the brake (S2, spec section 4: TRQ, VLC, RET, SPD; MODE, RSP-1n).
 
-use crate::claims::{Claim, Outcome, demand};
+use super::claims::{Claim, Outcome, demand};
+use super::facts::Facts;
+use super::read::*;
+use super::trace::Cycle;
 use crate::common::*;
-use crate::facts::Facts;
-use crate::read::*;
-use crate::trace::Cycle;
 
 /// The claims of this file.
 pub const CLAIMS: &[Claim] = &[

@@ -1,10 +1,10 @@
 //! What has been true in the past, by past-time formulas over inputs, commands and outputs. Two readings where the
 //! specification or a rounding leaves one open: `must` holds in every reading, `may` in at least one.
 
+use super::past::{Clock, Series};
+use super::read::*;
+use super::trace::{Cycle, Trace};
 use crate::common::*;
-use crate::past::{Clock, Series};
-use crate::read::*;
-use crate::trace::{Cycle, Trace};
 
 /// A formula in its strictest and in its widest reading.
 #[derive(Clone, Debug)]

@@ -1,10 +1,10 @@
 //! What the oracle found, each in the drive that shows it: two where the supervisor was wrong, and the readings in which the letter
 //! of one row gives way to another (`readings.toml`).
 
+use super::read::braking_out;
+use super::starts::beginning;
+use super::trace::Recorder;
 use crate::common::*;
-use crate::read::braking_out;
-use crate::starts::beginning;
-use crate::trace::Recorder;
 
 /// The comfort cap, 3.5 m/s².
 const COMFORT: i64 = 7_168;

@@ -1,9 +1,9 @@
 //! Gear, auxiliaries and brake lamps (spec GEAR-1, AUX-1, BODY-1).
 
-use crate::claims::{Claim, Outcome, demand};
+use super::claims::{Claim, Outcome, demand};
+use super::facts::Facts;
+use super::read::*;
 use crate::common::*;
-use crate::facts::Facts;
-use crate::read::*;
 
 /// The claims of this file.
 pub const CLAIMS: &[Claim] = &[

@@ -1,9 +1,9 @@
 //! Lost and refused commands (S4 table 5, spec E2E-2, rule 5).
 
-use crate::claims::{Claim, Outcome, demand};
+use super::claims::{Claim, Outcome, demand};
+use super::facts::Facts;
+use super::read::*;
 use crate::common::*;
-use crate::facts::Facts;
-use crate::read::*;
 
 /// The claims of this file.
 pub const CLAIMS: &[Claim] = &[

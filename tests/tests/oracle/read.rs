@@ -1,8 +1,8 @@
 //! What one cycle says by itself: speeds, pedals, seat, objects. Exact integers, no memory.
 
+use super::trace::Cycle;
 use crate::common::always::TABLE_1;
 use crate::common::*;
-use crate::trace::Cycle;
 
 /// The two speeds together (rule 6).
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,9 +1,9 @@
 //! Driver out of seat (S3 §2.1 to §2.5, spec section 5): warning, torque, brake, parking brake, gear.
 
-use crate::claims::{Claim, Outcome, demand};
+use super::claims::{Claim, Outcome, demand};
+use super::facts::Facts;
+use super::read::*;
 use crate::common::*;
-use crate::facts::Facts;
-use crate::read::*;
 
 /// The claims of this file.
 pub const CLAIMS: &[Claim] = &[
@@ -45,7 +45,7 @@ pub const CLAIMS: &[Claim] = &[
     Claim { id: "EPB-1d", judge: switch_first, plant: |cycle| cycle.outputs.epb.request = EpbRequest::None },
 ];
 
-fn release(cycle: &mut crate::trace::Cycle) {
+fn release(cycle: &mut super::trace::Cycle) {
     cycle.outputs.epb.request = EpbRequest::Release;
 }
 

@@ -1,8 +1,8 @@
 //! Where drives begin, recorded from the reset on, and what can happen in them.
 
+use super::trace::Recorder;
 use crate::common::random::*;
 use crate::common::*;
-use crate::trace::Recorder;
 use std::sync::OnceLock;
 
 /// How many starts there are.
@@ -135,8 +135,7 @@ fn park(drive: &mut Recorder) {
 }
 
 /// One event, and the cycles after it.
-pub fn event(drive: &mut Recorder, seed: u64) {
-    let mut dice = Dice::Number(seed);
+pub fn event(drive: &mut Recorder, dice: &mut Dice<'_>) {
     if let Some(decision) = drive.bus.last.filter(|_| !dice.one_in(8)) {
         obey(&decision.outputs, &mut drive.bus.inputs);
     }
@@ -144,27 +143,27 @@ pub fn event(drive: &mut Recorder, seed: u64) {
         park(drive);
     }
     match dice.below(22) {
-        0..=10 => anything(drive, &mut dice),
+        0..=10 => anything(drive, dice),
         11 => {
             drive.bus.vacant();
-            cycles(drive, &mut dice, 203);
+            cycles(drive, dice, 203);
         }
         12 | 13 => {
             drive.bus.occupied();
-            cycles(drive, &mut dice, 103);
+            cycles(drive, dice, 103);
         }
         14 => {
             let rolling = dice.of(&[0, 300, 500, 600, 2_560, 7_680, 12_800]);
             drive.bus.speed(kmh_q8(rolling));
             let count = dice.of(&[1, 10, 120, 230]);
-            cycles(drive, &mut dice, count);
+            cycles(drive, dice, count);
         }
-        15 => approach(drive, &mut dice),
-        16 => back_to_the_wheel(drive, &mut dice),
-        17 => restart(drive, &mut dice),
-        18 => throttle(drive, &mut dice),
-        19 => pedals(drive, &mut dice),
-        20 => emergency(drive, &mut dice),
+        15 => approach(drive, dice),
+        16 => back_to_the_wheel(drive, dice),
+        17 => restart(drive, dice),
+        18 => throttle(drive, dice),
+        19 => pedals(drive, dice),
+        20 => emergency(drive, dice),
         _ => {
             // The speed is lost, sometimes for long.
             drive.bus.speed_unknown();

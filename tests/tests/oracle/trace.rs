@@ -15,6 +15,8 @@ pub struct Cycle {
     pub camera_known: bool,
     pub commands: Commands,
     pub outputs: Outputs,
+    /// What the supervisor says of the cycle: for reports of what a drive reaches. No claim reads it.
+    pub said: (Status, Verdicts),
 }
 
 /// Every cycle since the reset.
@@ -51,7 +53,7 @@ impl Recorder {
         let (radar, camera) = (radar.iter().copied().collect(), camera.iter().copied().collect());
         let Scene { radar_known, camera_known, .. } = self.bus.scene;
         let (inputs, commands) = (self.bus.inputs, self.bus.commands);
-        let outputs = self.bus.step_unjudged(elapsed).outputs;
+        let decision = self.bus.step_unjudged(elapsed);
         self.trace.cycles.push(Cycle {
             now: self.bus.now,
             inputs,
@@ -60,7 +62,8 @@ impl Recorder {
             radar_known,
             camera_known,
             commands,
-            outputs,
+            outputs: decision.outputs,
+            said: (decision.status, decision.verdicts),
         });
     }
     /// One cycle.

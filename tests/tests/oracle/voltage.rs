@@ -1,9 +1,9 @@
 //! High voltage after leave and otherwise (S3 §2.6, spec SEAT-7, SEAT-8, SEAT-11, HV-1).
 
-use crate::claims::{Claim, Outcome, demand};
+use super::claims::{Claim, Outcome, demand};
+use super::facts::Facts;
+use super::read::*;
 use crate::common::*;
-use crate::facts::Facts;
-use crate::read::*;
 
 /// The claims of this file.
 pub const CLAIMS: &[Claim] = &[
@@ -56,7 +56,7 @@ pub const CLAIMS: &[Claim] = &[
     Claim { id: "HV-1d, SEAT-9c", judge: closes_on_request, plant: close },
 ];
 
-fn close(cycle: &mut crate::trace::Cycle) {
+fn close(cycle: &mut super::trace::Cycle) {
     cycle.outputs.contactors.k1 = ContactorRequest::Close;
 }
 

@@ -1,0 +1,78 @@
+//! `supervise mutants`.
+
+use std::path::Path;
+use std::time::Duration;
+
+use super::{FINDINGS, NOT_RUN, Outcome, print};
+use crate::cli::Mutants;
+use crate::mistakes::{Shard, available};
+use crate::mutants::{Explained, Record, Request, run as mutate};
+use crate::prove::Sources;
+
+pub(super) fn run(arguments: &Mutants) -> Outcome {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().ok_or("the workspace has no folder")?;
+    if !arguments.check && !available() {
+        print(
+            "NOT RUN HERE: cargo mutants is not installed (cargo install --locked cargo-mutants). What follows is the record.\n",
+        )?;
+        show(root)?;
+        return Ok(NOT_RUN);
+    }
+    if !arguments.check {
+        let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+        let request = Request {
+            shard: arguments.shard.map_or(Shard::WHOLE, Shard::new),
+            jobs: arguments.jobs.unwrap_or(cores),
+            again: arguments.again,
+            within: arguments.within.map(|minutes| Duration::from_secs(minutes.saturating_mul(60))),
+        };
+        let mut failure = None;
+        mutate(root, request, &mut |line| {
+            if let Err(error) = print(format_args!("{line}\n")) {
+                failure = Some(error);
+            }
+        })?;
+        if let Some(error) = failure {
+            return Err(error.into());
+        }
+    }
+    show(root)
+}
+
+fn show(root: &Path) -> Outcome {
+    let (record, explained) = (Record::load(root)?, Explained::all(root)?);
+    print(format_args!("{:<42} {:>7} {:>9} {:>9} {:>9}\n", "", "caught", "survived", "unviable", "left out"))?;
+    let rows = record.by_file();
+    for (file, [caught, survived, unviable, left_out]) in &rows {
+        print(format_args!("{file:<42} {caught:>7} {survived:>9} {unviable:>9} {left_out:>9}\n"))?;
+    }
+    let [caught, survived, unviable, left_out] = record.counts();
+    print(format_args!("{:<42} {caught:>7} {survived:>9} {unviable:>9} {left_out:>9}\n\n", "all"))?;
+    let mut findings = Vec::new();
+    let is_explained = |name: &str| explained.iter().find(|explained| explained.speaks_of(name));
+    for name in record.survivors() {
+        match is_explained(name) {
+            Some(explained) => print(format_args!("explained: {name}\n  {}\n", explained.reason))?,
+            None => findings.push(format!("survived: {name}")),
+        }
+    }
+    for explained in &explained {
+        if !record.survivors().any(|name| explained.speaks_of(name)) {
+            findings.push(format!("explained, but it does not survive: {}: {}", explained.file, explained.name));
+        }
+    }
+    let run = record.mutants.len();
+    if run < record.listed {
+        findings.push(format!("{} of {} mutants were not run", record.listed.saturating_sub(run), record.listed));
+    }
+    if left_out > 0 {
+        findings.push(format!("{left_out} mutants cannot be switched and were not tried"));
+    }
+    if record.sources != Sources::load(root)?.shipped {
+        findings.push("the record is stale: the shipped sources have changed since".to_owned());
+    }
+    for finding in &findings {
+        print(format_args!("{finding}\n"))?;
+    }
+    Ok(if findings.is_empty() { 0 } else { FINDINGS })
+}

@@ -1,0 +1,99 @@
+//! The mutants, and those whose survival is explained.
+
+use std::path::Path;
+
+use serde::Deserialize;
+
+use super::switch::Mutant;
+use crate::mistakes::{Listed, listed};
+use crate::prove::ProveError;
+
+/// The crates that are mutated: what decides, sees and speaks. (`report` only tells.)
+pub const PACKAGES: [(&str, &str); 5] = [
+    ("supervisor-terms", "supervisor/terms"),
+    ("supervisor-observe", "supervisor/observe"),
+    ("supervisor-core", "supervisor/core"),
+    ("supervisor-perceive", "supervisor/perceive"),
+    ("supervisor-wire", "supervisor/wire"),
+];
+
+/// Where the explanations stand.
+const EXPLAINED: &str = "tests/mutants.toml";
+
+/// A mutant that may survive.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Explained {
+    /// Its name, without the place in the file.
+    pub name: String,
+    /// Its file.
+    pub file: String,
+    /// Why no test can notice it.
+    pub reason: String,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Explanations {
+    #[serde(default)]
+    mutant: Vec<Explained>,
+}
+
+impl Explained {
+    /// Every explanation; none without the file.
+    ///
+    /// # Errors
+    /// The file cannot be read, or does not say what it should.
+    pub fn all(root: &Path) -> Result<Vec<Self>, ProveError> {
+        let path = root.join(EXPLAINED);
+        let text = match std::fs::read_to_string(&path) {
+            Ok(text) => text,
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(Vec::new()),
+            Err(error) => return Err(ProveError::File { path, error }),
+        };
+        let read: Result<Explanations, _> = toml::from_str(&text);
+        read.map(|read| read.mutant).map_err(|error| ProveError::Form { path, message: error.to_string() })
+    }
+
+    /// Whether it speaks of the mutant with this name.
+    #[must_use]
+    pub fn speaks_of(&self, name: &str) -> bool {
+        name.starts_with(&format!("{}:", self.file)) && name.ends_with(&format!(": {}", self.name))
+    }
+}
+
+/// Every mutant with its number, from 1, in the order of the packages.
+///
+/// # Errors
+/// cargo-mutants does not run.
+pub fn every(root: &Path) -> Result<Vec<(u32, Listed)>, ProveError> {
+    let mut all = Vec::new();
+    for (package, _) in PACKAGES {
+        all.extend(listed(root, package)?);
+    }
+    Ok((1..).zip(all).collect())
+}
+
+/// A listed mutant as it is put into the text of its file; nothing where its kind or place is not known.
+pub fn placed(number: u32, listed: &Listed, text: &str) -> Option<Mutant> {
+    Some(Mutant {
+        number,
+        genre: listed.genre()?,
+        place: listed.place(text)?,
+        replacement: listed.replacement().to_owned(),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Explained;
+
+    #[test]
+    fn an_explanation_does_not_depend_on_the_line() {
+        let of = |file: &str, name: &str| Explained { name: name.into(), file: file.into(), reason: "r".into() };
+        let name = "supervisor/core/src/boot.rs:57:53: replace != with == in Boot::advance";
+        assert!(of("supervisor/core/src/boot.rs", "replace != with == in Boot::advance").speaks_of(name));
+        assert!(!of("supervisor/core/src/boot.rs", "with == in Boot::advance").speaks_of(name));
+        assert!(!of("supervisor/core/src/boot", "replace != with == in Boot::advance").speaks_of(name));
+    }
+}

@@ -1,0 +1,16 @@
+//! `supervise mutants`: the tests are tested. Every mutant that cargo-mutants lists of the shipped crates, against the tests alone.
+//!
+//! Building each mutant anew would take days here, so all of them are built once, each behind a switch ([`switched`]); then the tests run
+//! once for each, the quickest test program first, until one fails. A mutant that no test notices *survived*: `tests/mutants.toml` may
+//! explain why it changes nothing. The record is `tests/mutants.json`; it is stale as soon as the shipped sources differ.
+
+mod build;
+mod list;
+mod record;
+mod run;
+mod switch;
+
+pub use list::{Explained, PACKAGES};
+pub use record::{Entry, Outcome, RECORD, Record};
+pub use run::{Request, run};
+pub use switch::{CRATE, Genre, Mutant, Switched, switched};

@@ -1,0 +1,158 @@
+//! The record, `tests/mutants.json`.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+
+use crate::prove::ProveError;
+
+/// Where it stands.
+pub const RECORD: &str = "tests/mutants.json";
+
+/// What became of a mutant.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", tag = "outcome")]
+pub enum Outcome {
+    /// A test program failed, or did not end.
+    Caught {
+        /// Which.
+        by: String,
+    },
+    /// Every test passed.
+    Survived,
+    /// It does not compile, so it is no mutant.
+    Unviable,
+    /// It cannot be switched: not tried.
+    LeftOut {
+        /// Why.
+        why: String,
+    },
+}
+
+/// A mutant that ran.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Entry {
+    /// As cargo-mutants names it.
+    pub name: String,
+    /// What became of it.
+    #[serde(flatten)]
+    pub outcome: Outcome,
+}
+
+/// The record.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Record {
+    /// Digest of the shipped sources that were mutated.
+    pub sources: String,
+    /// How many mutants cargo-mutants lists of them.
+    pub listed: usize,
+    /// Test programs that ran for every mutant that the ones before did not catch.
+    pub tests: Vec<String>,
+    /// Every mutant that ran, by its name.
+    pub mutants: Vec<Entry>,
+}
+
+impl Record {
+    /// The committed one; empty if there is none.
+    ///
+    /// # Errors
+    /// It cannot be read or understood.
+    pub fn load(root: &Path) -> Result<Self, ProveError> {
+        let path = root.join(RECORD);
+        match std::fs::read(&path) {
+            Ok(bytes) => {
+                serde_json::from_slice(&bytes).map_err(|error| ProveError::Form { path, message: error.to_string() })
+            }
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(Self::default()),
+            Err(error) => Err(ProveError::File { path, error }),
+        }
+    }
+
+    /// Writes it.
+    ///
+    /// # Errors
+    /// It cannot be written.
+    pub fn save(&self, root: &Path) -> Result<(), ProveError> {
+        let path = root.join(RECORD);
+        let form = |error: serde_json::Error| ProveError::Form { path: path.clone(), message: error.to_string() };
+        // One line for each mutant: a change is one line of a diff.
+        let mut text = format!(
+            "{{\n\"sources\": {},\n\"listed\": {},\n\"tests\": {},\n\"mutants\": [\n",
+            serde_json::to_string(&self.sources).map_err(form)?,
+            self.listed,
+            serde_json::to_string(&self.tests).map_err(form)?
+        );
+        for (index, entry) in self.mutants.iter().enumerate() {
+            let comma = if index == 0 { "" } else { ",\n" };
+            text.push_str(&format!("{comma}{}", serde_json::to_string(entry).map_err(form)?));
+        }
+        text.push_str("\n]\n}\n");
+        std::fs::write(&path, text).map_err(|error| ProveError::File { path, error })
+    }
+
+    /// Takes over what ran, in the order of the names.
+    pub fn put(&mut self, entry: Entry) {
+        match self.mutants.binary_search_by(|present| present.name.cmp(&entry.name)) {
+            Ok(at) => {
+                if let Some(present) = self.mutants.get_mut(at) {
+                    *present = entry;
+                }
+            }
+            Err(at) => self.mutants.insert(at, entry),
+        }
+    }
+
+    /// How many came to each end: caught, survived, unviable, left out.
+    #[must_use]
+    pub fn counts(&self) -> [usize; 4] {
+        let mut counts = [0_usize; 4];
+        let [caught, survived, unviable, left_out] = &mut counts;
+        for entry in &self.mutants {
+            let count = match entry.outcome {
+                Outcome::Caught { .. } => &mut *caught,
+                Outcome::Survived => &mut *survived,
+                Outcome::Unviable => &mut *unviable,
+                Outcome::LeftOut { .. } => &mut *left_out,
+            };
+            *count = count.saturating_add(1);
+        }
+        counts
+    }
+
+    /// The mutants that survived.
+    pub fn survivors(&self) -> impl Iterator<Item = &str> {
+        self.mutants.iter().filter(|entry| entry.outcome == Outcome::Survived).map(|entry| entry.name.as_str())
+    }
+
+    /// How many each file has: caught, survived, unviable, left out.
+    #[must_use]
+    pub fn by_file(&self) -> BTreeMap<&str, [usize; 4]> {
+        let mut files: BTreeMap<&str, Self> = BTreeMap::new();
+        for entry in &self.mutants {
+            let file = entry.name.split(':').next().unwrap_or_default();
+            files.entry(file).or_default().mutants.push(entry.clone());
+        }
+        files.into_iter().map(|(file, record)| (file, record.counts())).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Entry, Outcome, Record};
+
+    #[test]
+    fn what_ran_stands_once_and_in_order_and_is_read_back() {
+        let entry = |name: &str, outcome| Entry { name: name.to_owned(), outcome };
+        let mut record = Record { sources: "s".into(), listed: 3, tests: vec!["t".into()], mutants: Vec::new() };
+        record.put(entry("b.rs:1:1: x", Outcome::Survived));
+        record.put(entry("a.rs:1:1: x", Outcome::Caught { by: "t".into() }));
+        record.put(entry("b.rs:1:1: x", Outcome::LeftOut { why: "const".into() }));
+        assert_eq!(record.counts(), [1, 0, 0, 1]);
+        assert_eq!(record.by_file().get("b.rs"), Some(&[0, 0, 0, 1]));
+        let Ok(folder) = tempfile::tempdir() else { unreachable!("there is a temporary folder") };
+        let path = folder.path().join("tests");
+        assert!(std::fs::create_dir_all(&path).is_ok() && record.save(folder.path()).is_ok());
+        assert!(Record::load(folder.path()).is_ok_and(|read| read == record));
+    }
+}

@@ -1,0 +1,182 @@
+//! Runs the tests once for each mutant.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::sync::mpsc::channel;
+use std::sync::{Mutex, PoisonError};
+use std::time::{Duration, Instant};
+
+use super::build::built;
+use super::list::every;
+use super::record::{Entry, Outcome, Record};
+use crate::mistakes::Shard;
+use crate::prove::{ProveError, Sources};
+
+/// What a test program may take beside a multiple of what it takes without a mutant.
+const PATIENCE: Duration = Duration::from_secs(10);
+/// How often is looked whether it has ended.
+const LOOK: Duration = Duration::from_millis(5);
+
+/// What to run.
+#[derive(Clone, Copy, Debug)]
+pub struct Request {
+    /// Only this part.
+    pub shard: Shard,
+    /// How many at a time.
+    pub jobs: usize,
+    /// Again what the record has for the present sources.
+    pub again: bool,
+    /// No further mutant is begun after so long.
+    pub within: Option<Duration>,
+}
+
+/// A test program.
+#[derive(Clone, Debug)]
+struct Program {
+    name: String,
+    path: PathBuf,
+    folder: PathBuf,
+    /// What it takes without a mutant.
+    takes: Duration,
+    /// How many mutants it has caught.
+    caught: u32,
+}
+
+impl Program {
+    /// Whether it passes, with a mutant or without one. One that does not end in time does not.
+    fn passes(&self, mutant: u32, within: Duration) -> Result<bool, ProveError> {
+        let mut command = Command::new(&self.path);
+        command.current_dir(&self.folder).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
+        command.env("RUST_TEST_THREADS", "1").env("RUST_BACKTRACE", "0").env("MUTANT", mutant.to_string());
+        let mut child = command.spawn().map_err(ProveError::Tool)?;
+        let began = Instant::now();
+        loop {
+            if let Some(status) = child.try_wait().map_err(ProveError::Tool)? {
+                return Ok(status.success());
+            }
+            if began.elapsed() > within {
+                child.kill().and_then(|()| child.wait()).map_err(ProveError::Tool)?;
+                return Ok(false);
+            }
+            std::thread::sleep(LOOK);
+        }
+    }
+
+    fn patience(&self) -> Duration {
+        self.takes.saturating_mul(8).saturating_add(PATIENCE)
+    }
+
+    /// How many mutants it catches in a second, about: those come first.
+    fn worth(&self) -> f64 {
+        f64::from(self.caught.saturating_add(1)) / self.takes.as_secs_f64().max(0.01)
+    }
+}
+
+/// Measures the test programs without a mutant; what does not pass then judges nothing, and is told.
+fn measured(programs: Vec<(String, PathBuf, PathBuf)>, say: &mut dyn FnMut(&str)) -> Result<Vec<Program>, ProveError> {
+    let mut all = Vec::new();
+    for (name, path, folder) in programs {
+        let mut program = Program { name, path, folder, takes: Duration::ZERO, caught: 0 };
+        let began = Instant::now();
+        if program.passes(0, Duration::from_secs(600))? {
+            program.takes = began.elapsed();
+            all.push(program);
+        } else {
+            say(&format!("LEFT OUT: {} does not pass without a mutant", program.name));
+        }
+    }
+    Ok(all)
+}
+
+/// Runs the programs until one fails: which.
+fn caught(programs: &Mutex<Vec<Program>>, mutant: u32) -> Result<Option<String>, ProveError> {
+    let lock = || programs.lock().unwrap_or_else(PoisonError::into_inner);
+    let mut order = lock().clone();
+    order.sort_by(|one, other| other.worth().total_cmp(&one.worth()));
+    for program in order {
+        if !program.passes(mutant, program.patience())? {
+            if let Some(found) = lock().iter_mut().find(|present| present.name == program.name) {
+                found.caught = found.caught.saturating_add(1);
+            }
+            return Ok(Some(program.name));
+        }
+    }
+    Ok(None)
+}
+
+/// Runs what is asked for, keeps the record, tells `say` how far it is.
+///
+/// # Errors
+/// A file or a tool fails, or the sources change while it runs. What ran before is in the record.
+pub fn run(root: &Path, request: Request, say: &mut dyn FnMut(&str)) -> Result<(), ProveError> {
+    let sources = Sources::load(root)?;
+    let all = every(root)?;
+    let target = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root.join("target"), |folder| root.join(folder));
+    let built = built(root, &target.join("mutants"), &all, say)?;
+    let programs = measured(built.programs, say)?;
+    let mut record = Record::load(root)?;
+    let mut tests: Vec<String> = programs.iter().map(|program| program.name.clone()).collect();
+    tests.sort();
+    if record.sources != sources.shipped || request.again {
+        record = Record::default();
+    }
+    record = Record { sources: sources.shipped.clone(), listed: all.len(), tests, ..record };
+    let mut queue = Vec::new();
+    for (number, listed) in request.shard.part(all) {
+        let name = listed.name.clone();
+        // A survivor is tried again: there may be a new test.
+        if built.inside.contains(&number) {
+            let is_done = |entry: &Entry| entry.name == name && entry.outcome != Outcome::Survived;
+            if !record.mutants.iter().any(is_done) {
+                queue.push((number, name));
+            }
+        } else {
+            let why = "in a constant function, or beside a pattern that binds a name".to_owned();
+            let outcome = if built.unviable.contains(&number) { Outcome::Unviable } else { Outcome::LeftOut { why } };
+            record.put(Entry { name, outcome });
+        }
+    }
+    record.save(root)?;
+    let (total, began) = (queue.len(), Instant::now());
+    say(&format!("{total} to run against {} test programs, {} at a time", programs.len(), request.jobs));
+    let (queue, programs) = (Mutex::new(queue.into_iter()), Mutex::new(programs));
+    let next = || {
+        let goes_on = request.within.is_none_or(|within| began.elapsed() < within);
+        goes_on.then(|| queue.lock().unwrap_or_else(PoisonError::into_inner).next()).flatten()
+    };
+    std::thread::scope(|scope| {
+        let (sender, results) = channel();
+        for _ in 0..request.jobs.max(1) {
+            let (sender, next, programs) = (sender.clone(), &next, &programs);
+            scope.spawn(move || {
+                while let Some((number, name)) = next() {
+                    let outcome =
+                        caught(programs, number).map(|by| by.map_or(Outcome::Survived, |by| Outcome::Caught { by }));
+                    let ends = outcome.is_err();
+                    if sender.send(outcome.map(|outcome| Entry { name, outcome })).is_err() || ends {
+                        return;
+                    }
+                }
+            });
+        }
+        drop(sender);
+        let mut done = 0_usize;
+        for result in results {
+            let entry = result?;
+            done = done.saturating_add(1);
+            if entry.outcome == Outcome::Survived {
+                say(&format!("SURVIVED {}", entry.name));
+            }
+            record.put(entry);
+            if done.is_multiple_of(50) || done == total {
+                let minutes = began.elapsed().as_secs() / 60;
+                say(&format!("{done} of {total}, {minutes} min so far"));
+                if Sources::load(root)? != sources {
+                    return Err(ProveError::Arguments("the sources have changed while this ran".to_owned()));
+                }
+                record.save(root)?;
+            }
+        }
+        record.save(root)
+    })
+}
