@@ -6,7 +6,8 @@
 //!   "drives": [ { "name": "cruise", "cycles": 6600, "interventions": 0, "harms": 0 } ],
 //!   "cells": [ { "fault": "FI-01", "scenario": "cruise", "harmless": 3, "averted": 2, "reported": 0, "late": 0,
 //!                "missed": 0, "detection_ms": [0, 30], "share": 3,
-//!                "examples": [ { "outcome": "averted", "from_ms": 31230, "lasts_ms": 4000, "goal": "SG-01" } ] } ] }
+//!                "examples": [ { "outcome": "averted", "from_ms": 31230, "lasts_ms": 4000, "goal": "SG-01",
+//!                               "said": "EXCESS_TORQUE" } ] } ] }
 //! ```
 //! `detection_ms`: for each dangerous run with a reaction, from the moment from which the FTTI counts; sorted. `share`: the
 //! greatest of them as percent of its FTTI. `examples`: the first run of each outcome that is not harmless.
@@ -14,6 +15,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use serde::{Deserialize, Serialize};
+use supervisor::Faults;
 use supervisor_tests::inject::baseline::Baseline;
 use supervisor_tests::inject::campaign;
 use supervisor_tests::inject::harm::Ftti;
@@ -70,6 +72,8 @@ pub struct Example {
     pub lasts_ms: u32,
     /// The goal whose time runs out first.
     pub goal: String,
+    /// What the supervisor reported first, by the names of its faults.
+    pub said: String,
 }
 
 /// All runs of a fault in a scenario.
@@ -110,6 +114,12 @@ pub const fn word(outcome: Outcome) -> &'static str {
     }
 }
 
+/// The names of faults, by their bits.
+fn names(bits: u32) -> String {
+    let named = Faults::NAMES.iter().filter(|(fault, _)| bits & fault.bits() != 0);
+    named.map(|(_, name)| *name).collect::<Vec<_>>().join(" ")
+}
+
 impl Cell {
     /// From its runs.
     #[must_use]
@@ -124,7 +134,8 @@ impl Cell {
         let example = |outcome| {
             let run = cell.runs.iter().find(|run| run.verdict.outcome == outcome)?;
             let goal = run.verdict.goal.map(|goal| format!("SG-{:02}", goal.0)).unwrap_or_default();
-            Some(Example { outcome: word(outcome).to_owned(), from_ms: run.from_ms, lasts_ms: run.lasts_ms, goal })
+            let (from_ms, lasts_ms, said) = (run.from_ms, run.lasts_ms, names(run.reaction.faults));
+            Some(Example { outcome: word(outcome).to_owned(), from_ms, lasts_ms, goal, said })
         };
         Self {
             fault: fault.to_owned(),

@@ -68,8 +68,13 @@ fn place(row: &Row<'_>, cell: Option<&Cell>) -> Value {
         (Expected::Detected | Expected::Residual | Expected::Tolerated, _) => "good",
     };
     let text = if cell.dangerous() == 0 { "·".to_owned() } else { format!("{}/{}", cell.averted, cell.dangerous()) };
+    let said = |example: &super::matrix::Example| {
+        let at = f64::from(example.from_ms) / 1000.0;
+        format!("; {} at {at:.2} s, {} {}", example.outcome, example.goal, example.said)
+    };
+    let examples: String = cell.examples.iter().map(said).collect();
     let note = format!(
-        "{} runs: {} harmless, {} averted, {} reported, {} late, {} missed",
+        "{} runs: {} harmless, {} averted, {} reported, {} late, {} missed{examples}",
         cell.runs(),
         cell.harmless,
         cell.averted,

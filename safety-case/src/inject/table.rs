@@ -60,8 +60,8 @@ pub fn summary(rows: &[Row<'_>], matrix: &Matrix) -> String {
                 for example in &row.sum.examples {
                     let _ = writeln!(
                         text,
-                        "  {} at {} ms for {} ms, {}",
-                        example.outcome, example.from_ms, example.lasts_ms, example.goal
+                        "  {} at {} ms for {} ms, {} {}",
+                        example.outcome, example.from_ms, example.lasts_ms, example.goal, example.said
                     );
                 }
             }

@@ -113,7 +113,7 @@ fn run(baseline: &Baseline, fault: &Fault, ftti: &Ftti, times: &[u32], drawn: u6
         let cycle = start.bench.step(&mut start.injector);
         start.watch.see(&cycle);
     }
-    start.watch.forget();
+    start.watch.forget(from_ms);
 
     let (without, _) = start.clone().go_on(Obeys::Controller, until_ms, baseline, Guard::Blind);
     let obeys = match guard {

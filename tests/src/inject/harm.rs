@@ -45,6 +45,8 @@ const CRUISE_SHARE: f64 = 0.65;
 const LEAVE_MS: u32 = 2000;
 /// S3 table 1: the least of a moving bus, and what it falls short by at most (S4: 15 %), in m/s².
 const LEAVE_DECEL: f64 = 1.35 * 0.85;
+/// A brake that falls short for so long in leave may be helped by the parking brake (RSP-1: 700 ms to respond), in ms.
+const SHORTFALL_MS: u32 = 700;
 /// PHB-1's cap in m/s² and 5 % for the build-up of a brake.
 const COMFORT_DECEL: f64 = 3.5 * 1.05;
 /// S1 §3.1.2: time to collision in s and deceleration in m/s² of the three levels, the most severe first.
@@ -65,9 +67,14 @@ pub struct Watch {
     braked_ms: u32,
     parked: Parked,
     wheel: Wheel,
+    /// How long the brake of this leave has fallen short, at most, in ms.
+    short_ms: u32,
+    longest_short_ms: u32,
     collided: bool,
     wrong_gear: bool,
     arc: bool,
+    /// What is judged begins here, in ms.
+    start_ms: u32,
     before: Option<Truth>,
 }
 
@@ -85,9 +92,12 @@ impl Watch {
             braked_ms: 0,
             parked: Parked::default(),
             wheel: Wheel::default(),
+            short_ms: 0,
+            longest_short_ms: 0,
             collided: false,
             wrong_gear: false,
             arc: false,
+            start_ms: 0,
             before: None,
         }
     }
@@ -98,8 +108,9 @@ impl Watch {
         &self.harms
     }
 
-    /// Forgets what was violated and what holds, for a run that goes on from here; what the driver did is kept.
-    pub fn forget(&mut self) {
+    /// Forgets what was violated and what holds, for a run that goes on from this time; what the driver did is kept.
+    pub fn forget(&mut self, start_ms: u32) {
+        self.start_ms = start_ms;
         self.since.clear();
         self.harms.clear();
         (self.collided, self.wrong_gear, self.arc) = (false, false, false);
@@ -113,6 +124,7 @@ impl Watch {
         self.parked.see(truth, self.empty_ms > 0);
         self.wheel.see(truth);
         self.last(truth);
+        self.shortfall(truth);
         let endangered = [
             (Goal(1), self.torque(truth)),
             (Goal(2), self.no_brake(truth)),
@@ -143,7 +155,7 @@ impl Watch {
         // The way of the wheel is measured over its whole FTTI already.
         let over = goal == Goal(9) || now_ms.saturating_sub(from_ms) > ftti;
         if goal == Goal(9) {
-            from_ms = from_ms.saturating_sub(Wheel::SPAN_MS);
+            from_ms = from_ms.saturating_sub(Wheel::SPAN_MS).max(self.start_ms);
         }
         if over && !self.harms.iter().any(|harm| harm.goal == goal) {
             self.harms.push(Harm { goal, from_ms });
@@ -195,6 +207,12 @@ impl Watch {
         self.empty_ms > LEAVE_MS && truth.speed.abs() > kmh(2.0) && truth.braking < LEAVE_DECEL
     }
 
+    /// For how long the brake has fallen short in this leave.
+    fn shortfall(&mut self, truth: &Truth) {
+        self.short_ms = if self.no_brake(truth) { self.short_ms.saturating_add(CYCLE_MS) } else { 0 };
+        self.longest_short_ms = if self.empty_ms == 0 { 0 } else { self.longest_short_ms.max(self.short_ms) };
+    }
+
     /// HZ-04: nobody sits and nothing holds the bus; or its parking brake is let go.
     fn rolls_away(&self, cycle: &Cycle) -> bool {
         let truth = &cycle.truth;
@@ -210,12 +228,13 @@ impl Watch {
         driving && truth.gear != truth.hands.selector && truth.torque > 0.03 && self.empty_ms == 0
     }
 
-    /// HZ-10: the parking brake acts, or is told to, while the bus drives; not by the driver's switch, not in leave.
+    /// HZ-10: the parking brake acts, or is told to, while the bus drives; not by the driver's switch, and not after the
+    /// service brake fell short in leave.
     fn parking_at_speed(&self, cycle: &Cycle) -> bool {
         let truth = &cycle.truth;
         let told = cycle.answer.outputs.epb.request == EpbRequest::Apply || truth.epb != Some(EpbState::Released);
         let by_driver = truth.hands.epb_switch == EpbSwitch::Apply;
-        told && !by_driver && truth.speed.abs() > kmh(3.0) && self.empty_ms <= LEAVE_MS
+        told && !by_driver && truth.speed.abs() > kmh(3.0) && self.longest_short_ms < SHORTFALL_MS
     }
 
     /// HZ-11: braking without lamps; leave without warning; an obstacle near without warning.

@@ -40,6 +40,8 @@ pub struct Reaction {
     pub any_ms: Option<u32>,
     /// It reported a fault, or actuators no longer listen to it.
     pub report_ms: Option<u32>,
+    /// What it reported, as the bits of its faults; none: they no longer listen.
+    pub faults: u32,
 }
 
 /// Looks for the reaction, cycle by cycle.
@@ -57,6 +59,9 @@ impl Listener {
         let usual = usual.copied().unwrap_or(Said { refused: 0, faults: 0, safe_state: false, heard: true });
         let report = said.faults & !usual.faults != 0 || said.safe_state != usual.safe_state || !said.heard;
         if report {
+            if self.reaction.report_ms.is_none() {
+                self.reaction.faults = said.faults & !usual.faults;
+            }
             self.reaction.report_ms.get_or_insert(now_ms);
             self.reaction.any_ms.get_or_insert(now_ms);
         }

@@ -1,4 +1,4 @@
-//! The correct drives into which faults are injected: those that ship, and short ones.
+//! The correct drives into which faults are injected: those that ship, and some more.
 
 use supervisor::{EpbSwitch, Gear, Key};
 
@@ -84,7 +84,11 @@ const RISES_AT_STOP: Script<'static> = after_start![
     (52_000, Act::Hold(20.0)),
 ];
 
-const fn short(
+/// The driver gets up at 30 km/h and stays away.
+const AWAY: Script<'static> =
+    after_start![(10_500, Act::Hold(30.0)), (26_000, Act::Accelerator(0.0)), (26_300, Act::Sit(false)),];
+
+const fn ours(
     name: &'static str,
     description: &'static str,
     length_ms: u32,
@@ -94,23 +98,24 @@ const fn short(
     Scenario { name, title: name, description, length_ms, parameters: Parameters::DEFAULT, script, road, misdeeds: &[] }
 }
 
-const SHORT: [Scenario<'static>; 5] = [
-    short("stop-and-go", "From stop to stop on a clear road.", 56_000, STOP_AND_GO, &[]),
-    short("cruise", "Cruise control and lane assistant on a clear road, until the driver brakes.", 66_000, CRUISE, &[]),
-    short(
+const OURS: [Scenario<'static>; 6] = [
+    ours("stop-and-go", "From stop to stop on a clear road.", 56_000, STOP_AND_GO, &[]),
+    ours("cruise", "Cruise control and lane assistant on a clear road, until the driver brakes.", 66_000, CRUISE, &[]),
+    ours(
         "behind-a-car",
         "The driver stops behind a standing car.",
         36_000,
         BEHIND_A_CAR,
         &[Obstacle::standing_car(112.0)],
     ),
-    short("short-leave", "The driver gets up at 30 km/h, and comes back after 19 s.", 72_000, SHORT_LEAVE, &[]),
-    short("rises-at-stop", "The driver gets up at a stop, without the parking brake.", 62_000, RISES_AT_STOP, &[]),
+    ours("short-leave", "The driver gets up at 30 km/h, and comes back after 19 s.", 72_000, SHORT_LEAVE, &[]),
+    ours("rises-at-stop", "The driver gets up at a stop, without the parking brake.", 62_000, RISES_AT_STOP, &[]),
+    ours("away", "The driver gets up at 30 km/h, and stays away for more than eleven minutes.", 730_000, AWAY, &[]),
 ];
 
-/// Every correct drive: the two that ship, and short ones.
+/// Every correct drive: the two that ship, and ours.
 #[must_use]
 pub fn all() -> Vec<Scenario<'static>> {
     let shipped = catalogue::ALL.iter().filter(|scenario| scenario.misdeeds.is_empty());
-    shipped.copied().chain(SHORT).collect()
+    shipped.copied().chain(OURS).collect()
 }

@@ -94,7 +94,7 @@ fn the_short_drives_are_correct() -> Result<(), ConfigError> {
 fn the_verdict_counts_from_the_goal_whose_time_runs_out_first() {
     let torque = Harm { goal: Goal(1), from_ms: 1000 };
     let phantom = Harm { goal: Goal(4), from_ms: 1500 };
-    let at = |any_ms| Reaction { any_ms, report_ms: None };
+    let at = |any_ms| Reaction { any_ms, ..Reaction::default() };
     let judged = |with: &[Harm], reaction| verdict(&[torque, phantom], with, None, reaction, &ftti());
     // SG-04's 300 ms end at 1800, SG-01's 1200 ms at 2200.
     let averted = judged(&[], at(Some(1800)));
@@ -103,7 +103,7 @@ fn the_verdict_counts_from_the_goal_whose_time_runs_out_first() {
     assert_eq!(judged(&[], at(Some(900))).detection_ms, Some(0), "before the harm begins");
     assert_eq!(judged(&[], at(None)).outcome, Outcome::Missed);
     assert_eq!(judged(&[phantom], at(Some(1600))).outcome, Outcome::Missed, "harm, and a refusal is no report");
-    let reported = Reaction { any_ms: Some(1600), report_ms: Some(1700) };
+    let reported = Reaction { any_ms: Some(1600), report_ms: Some(1700), faults: 1 };
     assert_eq!(judged(&[phantom], reported).outcome, Outcome::Reported);
     assert_eq!(verdict(&[], &[], None, reported, &ftti()).outcome, Outcome::Harmless);
     let itself = verdict(&[], &[], Some(1000), at(Some(1010)), &ftti());
