@@ -165,7 +165,7 @@ impl<'a> Bench<'a> {
         let absent = self.last.filter(|_| !hooks.runs(now_ms));
         let answer = if let Some(last) = absent {
             self.absent_ms = self.absent_ms.saturating_add(CYCLE_MS);
-            absence(last, self.absent_ms)
+            absence(&last, self.absent_ms)
         } else {
             let clock = Clocked { true_ms: now_ms, shown_ms: hooks.clock(now_ms) };
             let sample = self.link.supervisor_reads(clock, &frames);
@@ -190,7 +190,7 @@ impl<'a> Bench<'a> {
 }
 
 /// No supervisor: the actuators keep the last outputs for a while, then go to their safe reaction.
-fn absence(last: Answer, absent_ms: u32) -> Answer {
+fn absence(last: &Answer, absent_ms: u32) -> Answer {
     let outputs = if absent_ms > LISTEN_MS { Outputs::NEUTRAL } else { last.outputs };
-    Answer { outputs, verdicts: Verdicts::new([Verdict::PASS; 12]), ..last }
+    Answer { outputs, verdicts: Verdicts::new([Verdict::PASS; 12]), ..*last }
 }

@@ -59,7 +59,9 @@ impl Frames {
             (Node::Controller, Mangled::LostSome) => frames.retain(|_| random.random_range(0..3) > 0),
             (Node::Controller, Mangled::Lost) => frames.clear(),
             (Node::Controller, Mangled::Repeated) => {
-                frames.iter_mut().for_each(|frame| *frame = *self.last.entry(frame.id).or_insert(*frame));
+                for frame in frames {
+                    *frame = *self.last.entry(frame.id).or_insert(*frame);
+                }
             }
             (Node::Controller, Mangled::Late) => {
                 let due = now_ms.saturating_add(self.delay_ms);

@@ -18,7 +18,7 @@ use crate::plant::Plant;
 enum Part {
     Commands(Commands),
     Frames(Frames),
-    Inputs(Sensors),
+    Inputs(Box<Sensors>),
     Vehicle(Failing),
     Supervisor(Itself),
 }
@@ -40,7 +40,7 @@ impl Injector {
         let part = match kind {
             Kind::Commands(kind) => Part::Commands(Commands::new(kind, cycles(random.random_range(400..=900)))),
             Kind::Frames(kind) => Part::Frames(Frames::new(kind, random.random_range(300..=800))),
-            Kind::Inputs(kind) => Part::Inputs(Sensors::new(kind, random.random())),
+            Kind::Inputs(kind) => Part::Inputs(Box::new(Sensors::new(kind, random.random()))),
             Kind::Vehicle(kind) => Part::Vehicle(kind),
             Kind::Supervisor(kind) => {
                 Part::Supervisor(Itself::new(kind, from_ms, lasts_ms, random.random_range(1000..=60_000)))

@@ -14,7 +14,7 @@ pub struct Parked {
     applied: bool,
     /// ... and is no longer.
     let_go: bool,
-    parked_ms: u32,
+    for_ms: u32,
     /// A contactor was open with the seat empty.
     open: [bool; 2],
 }
@@ -29,7 +29,7 @@ impl Parked {
         let applied = truth.epb == Some(EpbState::Applied);
         self.let_go = (self.let_go || self.applied) && !applied;
         self.applied |= applied;
-        self.parked_ms = if applied { self.parked_ms.saturating_add(CYCLE_MS) } else { 0 };
+        self.for_ms = if applied { self.for_ms.saturating_add(CYCLE_MS) } else { 0 };
         for (was_open, closed) in self.open.iter_mut().zip(truth.closed) {
             *was_open |= !closed;
         }
@@ -45,6 +45,6 @@ impl Parked {
     #[must_use]
     pub fn live(&self, truth: &Truth) -> bool {
         let back = self.open.iter().zip(truth.closed).any(|(was_open, closed)| *was_open && closed);
-        back || (self.parked_ms > TOLERATED_MS && truth.closed.contains(&true))
+        back || (self.for_ms > TOLERATED_MS && truth.closed.contains(&true))
     }
 }
