@@ -110,7 +110,7 @@ const OURS: [Scenario<'static>; 6] = [
     ),
     ours("short-leave", "The driver gets up at 30 km/h, and comes back after 19 s.", 72_000, SHORT_LEAVE, &[]),
     ours("rises-at-stop", "The driver gets up at a stop, without the parking brake.", 62_000, RISES_AT_STOP, &[]),
-    ours("away", "The driver gets up at 30 km/h, and stays away for more than eleven minutes.", 730_000, AWAY, &[]),
+    ours("away", "The driver gets up at 30 km/h, and stays away for more than twelve minutes.", 800_000, AWAY, &[]),
 ];
 
 /// Every correct drive: the two that ship, and ours.
