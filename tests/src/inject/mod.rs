@@ -23,6 +23,3 @@ pub mod own;
 pub mod parked;
 pub mod scenarios;
 pub mod wheel;
-
-#[cfg(test)]
-mod tests;

@@ -1,19 +1,18 @@
-//! The judge and the injector can fail.
+//! Fault injection: the judge and the injector can fail.
 
 use std::error::Error;
 
 use supervisor::ConfigError;
-
-use super::baseline::Baseline;
-use super::campaign::{Cell, Fault, Guard, cell};
-use super::harm::{Ftti, Goal, Harm};
-use super::kind::{Kind, Own, When};
-use super::outcome::{Outcome, Reaction, verdict};
-use super::scenarios;
-use super::wheel::Wheel;
-use crate::driver::Script;
-use crate::number::kmh;
-use crate::plant::{Parameters, Plant, Truth};
+use supervisor_tests::driver::Script;
+use supervisor_tests::inject::baseline::Baseline;
+use supervisor_tests::inject::campaign::{Cell, Fault, Guard, cell};
+use supervisor_tests::inject::harm::{Ftti, Goal, Harm};
+use supervisor_tests::inject::kind::{Kind, Own, When};
+use supervisor_tests::inject::outcome::{Outcome, Reaction, verdict};
+use supervisor_tests::inject::scenarios;
+use supervisor_tests::inject::wheel::Wheel;
+use supervisor_tests::number::kmh;
+use supervisor_tests::plant::{Parameters, Plant, Truth};
 
 type Tested = Result<(), Box<dyn Error>>;
 
@@ -56,9 +55,9 @@ fn a_supervisor_that_passes_everything_misses_what_the_real_one_averts() -> Test
     for (name, fault) in cases {
         let [seen, blind] = both(&baseline(name)?, &fault);
         let what = fault.kind.name();
-        assert_eq!(seen.runs.len(), 2, "{what}");
-        assert_eq!(seen.count(Outcome::Averted), 2, "{what}: {seen:?}");
-        assert_eq!(blind.count(Outcome::Missed), 2, "{what}: {blind:?}");
+        let (averted, missed) = (seen.count(Outcome::Averted), blind.count(Outcome::Missed));
+        assert!(averted >= 1 && averted + seen.count(Outcome::Harmless) == 2, "{what}: {seen:?}");
+        assert_eq!((missed, missed + blind.count(Outcome::Harmless)), (averted, 2), "{what}: {blind:?}");
     }
     Ok(())
 }
