@@ -91,9 +91,8 @@ fn row<'a>(fault: &'a Fault, matrix: &Matrix) -> Row<'a> {
         (1.., _) if fault.known.is_some() => Standing::Known,
         (1.., _) => Standing::Against,
         (0, Expected::Residual) if sum.dangerous() > 0 => Standing::Residual,
-        (0, Expected::Tolerated) => Standing::AsExpected,
         (0, Expected::Detected | Expected::Residual) if sum.dangerous() == 0 => Standing::NotShown,
-        (0, Expected::Detected | Expected::Residual) => Standing::AsExpected,
+        (0, Expected::Detected | Expected::Tolerated | Expected::Residual) => Standing::AsExpected,
     };
     Row { fault, sum, standing }
 }

@@ -4,7 +4,7 @@ use std::error::Error;
 use std::path::{Path, PathBuf};
 
 use super::judge::{Standing, failed, rows};
-use super::list::{FILE, List};
+use super::list::List;
 use super::matrix::{Cell, Drive, Matrix, SCHEMA, Sources};
 use super::page::page;
 use super::run::{Request, campaign};
