@@ -1,9 +1,13 @@
 //! The command line.
 
+mod inject;
+
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use supervisor::{Record, ResetCause};
+
+pub use inject::Inject;
 
 use crate::prove::Solver;
 
@@ -25,6 +29,7 @@ Examples:
   supervise limits                                   every number of the supervisor, its unit and source
   supervise config seal my.toml my.bin               seal a configuration
   supervise analysis                                 check the safety analysis
+  supervise inject --html target/inject.html         faults in correct drives, and what becomes of the bus
   supervise trace --html target/trace.html           which code, proof and test belongs to which requirement
 
 Exit codes: 0 done; 1 the analysis or the traceability has findings, a harness is not proved, or a bar of the design is not
@@ -188,6 +193,9 @@ pub enum Command {
     /// Needs valgrind; without it nothing is measured, and it exits with 4. Writes target/cost.md and
     /// target/cost.json. Exits with 1 if a bar of the design is not met, or a file does not show what was measured.
     Cost(Cost),
+    /// Inject faults into correct drives at random times, and judge what becomes of the bus
+    #[command(long_about = inject::ABOUT)]
+    Inject(Inject),
 }
 
 /// Arguments of `replay`.

@@ -4,6 +4,7 @@
 //! Where to look: a line of a log, `candump`; how frames become inputs, `road`; when to step, `grid.rs`; the loop,
 //! `replay.rs`; what is worth seeing over time, `lanes` and `runs.rs`; what people read, `timeline.rs`,
 //! `summary.rs`, `document.rs` (JSON), `page` (HTML). Which code and test belongs to which requirement, `trace`.
+//! What becomes of injected faults, `inject`.
 #![forbid(unsafe_code)]
 
 pub mod analysis;
@@ -16,6 +17,7 @@ pub mod difference;
 pub mod digest;
 pub mod document;
 pub mod grid;
+pub mod inject;
 pub mod lanes;
 pub mod mistakes;
 pub mod mutants;

@@ -1,16 +1,16 @@
-//! The closed loop: bus → link → supervisor → bus, with the main controller one cycle behind. And the open loop:
-//! the log of a drive through the same receiver and supervisor.
+//! A drive in closed loop, [`crate::bench`]. And the open loop: the log of a drive through the same receiver and
+//! supervisor.
 
 use supervisor::wire::Receiver;
 use supervisor::{
-    Commands, Config, ConfigError, Decision, Millis, Outputs, Record, ResetCause, Sealed, Status, Supervisor, Verdicts,
+    Config, ConfigError, Decision, Millis, Outputs, Record, ResetCause, Sealed, Status, Supervisor, Verdicts,
 };
 
-use crate::controller::{Controller, Pace};
+use crate::bench::{Bench, Obeys};
 use crate::driver::Script;
-use crate::link::{Link, Stamped};
-use crate::misdeed::{Deed, Misdeed};
-use crate::plant::{CYCLE_MS, Parameters, Plant, Truth};
+use crate::link::Stamped;
+use crate::misdeed::{Misdeed, Misdeeds};
+use crate::plant::{CYCLE_MS, Parameters, Truth};
 use crate::road::Obstacle;
 
 /// A drive: who does what, where.
@@ -60,6 +60,8 @@ pub struct Cycle {
     pub truth: Truth,
     /// What it decided.
     pub answer: Answer,
+    /// The actuators hear the supervisor; else they have gone to their safe reaction.
+    pub heard: bool,
 }
 
 /// A drive that was driven.
@@ -71,7 +73,7 @@ pub struct Driven {
     pub frames: Vec<Stamped>,
 }
 
-/// The supervisor of every drive: default configuration, clean key-on.
+/// The supervisor of a log: default configuration, clean key-on.
 fn supervisor() -> Result<Supervisor, ConfigError> {
     Ok(Supervisor::new(Sealed::from_default()?, ResetCause::PowerOn, Some(Record::None)))
 }
@@ -81,7 +83,7 @@ fn supervisor() -> Result<Supervisor, ConfigError> {
 /// # Errors
 /// If the default configuration is refused.
 pub fn run(scenario: &Scenario) -> Result<Driven, ConfigError> {
-    closed_loop(scenario, |decision, _| decision.outputs)
+    closed_loop(scenario, Obeys::Supervisor)
 }
 
 /// Drives it without protection: the bus obeys the main controller, the supervisor only watches. Shows what the
@@ -90,37 +92,14 @@ pub fn run(scenario: &Scenario) -> Result<Driven, ConfigError> {
 /// # Errors
 /// If the default configuration is refused.
 pub fn run_unprotected(scenario: &Scenario) -> Result<Driven, ConfigError> {
-    closed_loop(scenario, |_, sent| *sent)
+    closed_loop(scenario, Obeys::Controller)
 }
 
-/// `obeyed` chooses what the bus obeys: the decision, or what the main controller has sent.
-fn closed_loop(scenario: &Scenario, obeyed: impl Fn(&Decision, &Outputs) -> Outputs) -> Result<Driven, ConfigError> {
-    let mut supervisor = supervisor()?;
-    let mut plant = Plant::new(scenario.parameters, scenario.script, scenario.road);
-    let (mut controller, mut pace) = (Controller::default(), Pace::default());
-    let mut link = Link::new(&Config::DEFAULT);
-    let mut wanted = Outputs::NEUTRAL;
-    let mut cycles = Vec::new();
-    for now_ms in (CYCLE_MS..=scenario.length_ms).step_by(10) {
-        let (mut sent, mut tampering) = (wanted, None);
-        for misdeed in scenario.misdeeds.iter().filter(|misdeed| misdeed.active(now_ms)) {
-            misdeed.deed.corrupt(&mut sent);
-            plant.suffer(misdeed.deed);
-            tampering = tampering.or(misdeed.deed.tampers().then_some(misdeed.deed));
-        }
-        let due = pace.next(&sent);
-        let silent = tampering == Some(Deed::FallsSilent);
-        let commands = if silent { Commands::ABSENT } else { due };
-        let (inputs, scene) = plant.sense();
-        let sample = link.cycle(now_ms, (&inputs, &scene), &commands, tampering);
-        let now = Millis::new(now_ms);
-        let decision = supervisor.step(now, sample.inputs, sample.scene, sample.commands);
-        wanted = controller.step(now, sample.inputs, sample.scene);
-        let outputs = obeyed(&decision, &sent);
-        cycles.push(Cycle { now_ms, truth: plant.truth(), answer: Answer { outputs, ..decision.into() } });
-        plant.advance(&outputs);
-    }
-    Ok(Driven { cycles, frames: link.into_log() })
+fn closed_loop(scenario: &Scenario, obeys: Obeys) -> Result<Driven, ConfigError> {
+    let mut bench = Bench::new(scenario)?.obeying(obeys).with_log();
+    let mut misdeeds = Misdeeds::new(scenario.misdeeds);
+    let cycles = (CYCLE_MS..=scenario.length_ms).step_by(10).map(|_| bench.step(&mut misdeeds)).collect();
+    Ok(Driven { cycles, frames: bench.into_log() })
 }
 
 /// The supervisor's answers to a log: a step at every multiple of 10 ms up to `length_ms`, each after every frame

@@ -108,7 +108,7 @@ pub fn hazards(cycles: &[Cycle]) -> Vec<(u32, Hazard)> {
     };
     let pairs = std::iter::once(None).chain(cycles.iter().map(Some)).zip(cycles);
     for (before, cycle) in pairs {
-        let Cycle { now_ms, truth, answer } = *cycle;
+        let Cycle { now_ms, truth, answer, .. } = *cycle;
         let Answer { outputs, status, .. } = answer;
         let empty = truth.seat == [false, false];
         let rolls = truth.speed.abs() > kmh(0.3);

@@ -4,18 +4,18 @@
 //! cycle k − 1 on, 0.1 ms apart. A replay that steps at every multiple of 10 ms, first taking every frame with an
 //! earlier stamp, sees exactly what the closed loop saw: [`crate::drive::replay`].
 
-use std::collections::BTreeMap;
-
 use supervisor::wire::{Frame, Receiver, Sample, Sender};
 use supervisor::{Commands, Config, Inputs, Millis, Scene};
 
-use crate::misdeed::Deed;
+use crate::bench::{Hooks, Node};
 use crate::plant::CYCLE_MS;
 
 /// First stamp of a cycle's frames after the cycle before, and the distance between two frames, in µs.
 const FIRST_US: u64 = 1000;
 /// See [`FIRST_US`].
 const SPACING_US: u64 = 100;
+/// However many there are: none is later than this after the first one of its cycle.
+const LATEST_US: u64 = 8900;
 
 /// A frame with its time stamp.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -34,14 +34,32 @@ impl Stamped {
     }
 }
 
+/// The supervisor's clock in one cycle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Clocked {
+    /// The true time of the cycle, in ms.
+    pub true_ms: u32,
+    /// What the clock shows, in ms; may wrap.
+    pub shown_ms: u32,
+}
+
+impl Clocked {
+    /// What the clock showed when a frame with this true time came.
+    const fn shown(self, at: Millis) -> Millis {
+        Millis::new(self.shown_ms.wrapping_sub(self.true_ms.wrapping_sub(at.raw())))
+    }
+}
+
 /// The link.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Link {
     sensors: Sender,
     controller: Sender,
+    /// The supervisor's.
     receiver: Receiver,
-    log: Vec<Stamped>,
-    last: BTreeMap<u32, Frame>,
+    /// The main controller's.
+    other: Receiver,
+    log: Option<Vec<Stamped>>,
 }
 
 impl Link {
@@ -52,53 +70,65 @@ impl Link {
             sensors: Sender::new(),
             controller: Sender::new(),
             receiver: Receiver::new(config),
-            log: Vec::new(),
-            last: BTreeMap::new(),
+            other: Receiver::new(config),
+            log: None,
         }
     }
 
-    /// Sends what is due before the cycle at `now_ms`, and gives what the supervisor makes of it.
-    pub fn cycle(
+    /// Keeps every frame from now on.
+    pub fn keep_log(&mut self) {
+        self.log.get_or_insert_default();
+    }
+
+    /// The supervisor was started anew: its receiver knows nothing.
+    pub fn start_anew(&mut self, config: &Config) {
+        self.receiver = Receiver::new(config);
+    }
+
+    /// What is on the link before the cycle at `now_ms`.
+    pub fn frames(
         &mut self,
         now_ms: u32,
         (inputs, scene): (&Inputs, &Scene),
         commands: &Commands,
-        tampering: Option<Deed>,
-    ) -> Sample<'_> {
+        hooks: &mut impl Hooks,
+    ) -> Vec<Stamped> {
         let now = Millis::new(now_ms);
-        let mut micros = u64::from(now_ms.saturating_sub(CYCLE_MS)) * 1000 + FIRST_US;
-        let Self { sensors, controller, receiver, log, last } = self;
-        let mut put = |frame: Frame| {
-            let stamped = Stamped { micros, frame };
-            log.push(stamped);
-            micros += SPACING_US;
-            // A refusal shows in the sample.
-            let _ = receiver.accept(stamped.millis(), &frame);
-        };
-        sensors.encode_inputs(now, inputs, scene, &mut put);
-        controller.encode_commands(now, commands, &mut |frame| {
-            let sent = match tampering {
-                Some(Deed::BreaksChecksums) => broken(frame),
-                Some(Deed::RepeatsCounters) => last.get(&frame.id).copied().unwrap_or(frame),
-                Some(_) | None => frame,
-            };
-            last.insert(frame.id, sent);
-            put(sent);
-        });
-        receiver.sample(now)
+        let (mut sensors, mut controller) = (Vec::new(), Vec::new());
+        self.sensors.encode_inputs(now, inputs, scene, &mut |frame| sensors.push(frame));
+        self.controller.encode_commands(now, commands, &mut |frame| controller.push(frame));
+        hooks.frames(now_ms, Node::Sensors, &mut sensors);
+        hooks.frames(now_ms, Node::Controller, &mut controller);
+        let first = u64::from(now_ms.saturating_sub(CYCLE_MS)) * 1000 + FIRST_US;
+        let stamps = (0..).map(|number: u64| first + (number * SPACING_US).min(LATEST_US));
+        let stamped = |(frame, micros)| Stamped { micros, frame };
+        let frames: Vec<Stamped> = sensors.into_iter().chain(controller).zip(stamps).map(stamped).collect();
+        if let Some(log) = &mut self.log {
+            log.extend_from_slice(&frames);
+        }
+        frames
     }
 
-    /// Every frame that was sent.
+    /// What the supervisor makes of these frames.
+    pub fn supervisor_reads(&mut self, clock: Clocked, frames: &[Stamped]) -> Sample<'_> {
+        for stamped in frames {
+            // A refusal shows in the sample.
+            let _ = self.receiver.accept(clock.shown(stamped.millis()), &stamped.frame);
+        }
+        self.receiver.sample(Millis::new(clock.shown_ms))
+    }
+
+    /// What the main controller makes of these frames.
+    pub fn controller_reads(&mut self, now_ms: u32, frames: &[Stamped]) -> Sample<'_> {
+        for stamped in frames {
+            let _ = self.other.accept(stamped.millis(), &stamped.frame);
+        }
+        self.other.sample(Millis::new(now_ms))
+    }
+
+    /// Every frame that was kept.
     #[must_use]
     pub fn into_log(self) -> Vec<Stamped> {
-        self.log
+        self.log.unwrap_or_default()
     }
-}
-
-/// One flipped bit in the payload: no checksum of the link survives it.
-fn broken(mut frame: Frame) -> Frame {
-    if let Some(byte) = frame.data.get_mut(3) {
-        *byte ^= 0x10;
-    }
-    frame
 }

@@ -1,10 +1,16 @@
 //! What a misbehaving main controller, or a failing vehicle, does, when, and what must come of it.
 
+use std::collections::BTreeMap;
+
+use supervisor::wire::Frame;
 use supervisor::{
     AngleDeciDeg, Auxiliaries, BarTorque50mNm, Body, BrakeMode, Channel, ContactorRequest, DecelMs2Q11, DriveTorque,
     DrivingMode, EpbMode, EpbRequest, GearRequest, Origin, Outputs, ParkingBrake, Percent, Priority, RateDeciDegS,
     Reason, ServiceBrake, SpeedKmhQ8, Steering, TorqueNmQ10, Warnings,
 };
+
+use crate::bench::{Hooks, Node};
+use crate::plant::Plant;
 
 /// One way to misbehave.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -156,5 +162,66 @@ impl Deed {
             | Self::BrakesFade
             | Self::K4DropsOut => {}
         }
+    }
+}
+
+/// The misdeeds of a drive, in the loop.
+#[derive(Clone, Debug)]
+pub struct Misdeeds<'a> {
+    all: &'a [Misdeed],
+    /// The last frame of each identifier.
+    last: BTreeMap<u32, Frame>,
+}
+
+impl<'a> Misdeeds<'a> {
+    /// Each at its time.
+    #[must_use]
+    pub const fn new(all: &'a [Misdeed]) -> Self {
+        Self { all, last: BTreeMap::new() }
+    }
+
+    fn active(&self, now_ms: u32) -> impl Iterator<Item = Deed> + 'a {
+        self.all.iter().filter(move |misdeed| misdeed.active(now_ms)).map(|misdeed| misdeed.deed)
+    }
+
+    /// The first one that tampers with frames.
+    fn tampering(&self, now_ms: u32) -> Option<Deed> {
+        self.active(now_ms).find(|deed| deed.tampers())
+    }
+}
+
+impl Hooks for Misdeeds<'_> {
+    fn vehicle(&mut self, now_ms: u32, plant: &mut Plant) {
+        self.active(now_ms).for_each(|deed| plant.suffer(deed));
+    }
+
+    fn commands(&mut self, now_ms: u32, sent: &mut Outputs) {
+        self.active(now_ms).for_each(|deed| deed.corrupt(sent));
+    }
+
+    fn silent(&mut self, now_ms: u32) -> bool {
+        self.tampering(now_ms) == Some(Deed::FallsSilent)
+    }
+
+    fn frames(&mut self, now_ms: u32, node: Node, frames: &mut Vec<Frame>) {
+        if node == Node::Sensors {
+            return;
+        }
+        let tampering = self.tampering(now_ms);
+        for frame in frames {
+            match tampering {
+                Some(Deed::BreaksChecksums) => broken(frame),
+                Some(Deed::RepeatsCounters) => *frame = self.last.get(&frame.id).copied().unwrap_or(*frame),
+                Some(_) | None => {}
+            }
+            self.last.insert(frame.id, *frame);
+        }
+    }
+}
+
+/// One flipped bit in the payload: no checksum of the link survives it.
+fn broken(frame: &mut Frame) {
+    if let Some(byte) = frame.data.get_mut(3) {
+        *byte ^= 0x10;
     }
 }

@@ -6,6 +6,8 @@ use std::path::Path;
 use super::{FINDINGS, Outcome, print};
 use crate::analysis::{check, load};
 use crate::cli::AnalysisArgs;
+use crate::inject::List;
+use crate::inject::list::FILE;
 
 /// Runs it.
 ///
@@ -20,6 +22,8 @@ pub fn run(arguments: &AnalysisArgs) -> Outcome {
     for finding in &findings {
         writeln!(text, "{finding}")?;
     }
+    // A folder without faults is an analysis, too.
+    let faults = if folder.join(FILE).exists() { List::load(&folder)?.faults.len() } else { 0 };
     let events: usize = analysis.hazards.iter().map(|hazard| hazard.event.len()).sum();
     for (count, what) in [
         (analysis.hazards.len(), "hazards"),
@@ -28,6 +32,7 @@ pub fn run(arguments: &AnalysisArgs) -> Outcome {
         (analysis.requirements.len(), "requirements"),
         (analysis.assumptions.len(), "assumptions of use"),
         (analysis.readings.len(), "readings of the sources"),
+        (faults, "faults to inject"),
         (findings.len(), "findings"),
     ] {
         writeln!(text, "{count:>5} {what}")?;

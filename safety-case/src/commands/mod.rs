@@ -4,6 +4,7 @@ mod analysis;
 mod config;
 mod cost;
 mod drives;
+mod inject;
 mod limits;
 mod mistakes;
 mod mutants;
@@ -43,6 +44,7 @@ pub fn run(cli: &Cli) -> ExitCode {
         Some(Command::Mutants(arguments)) => mutants::run(arguments),
         Some(Command::Trace(arguments)) => trace::run(arguments),
         Some(Command::Cost(arguments)) => cost::run(arguments),
+        Some(Command::Inject(arguments)) => inject::run(arguments),
     };
     match outcome {
         Ok(code) => ExitCode::from(code),

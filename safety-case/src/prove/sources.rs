@@ -104,9 +104,20 @@ impl Sources {
 }
 
 /// Digest of the shipped sources.
-fn shipped(root: &Path) -> Result<String, ProveError> {
+///
+/// # Errors
+/// A folder or file cannot be read, or is no Rust.
+pub fn shipped(root: &Path) -> Result<String, ProveError> {
+    tokens(root, &SHIPPED)
+}
+
+/// Digest of the tokens of all Rust files of these folders: comments and layout do not count.
+///
+/// # Errors
+/// A folder or file cannot be read, or is no Rust.
+pub fn tokens(root: &Path, folders: &[&str]) -> Result<String, ProveError> {
     let mut digest = Sha256::new();
-    for folder in SHIPPED {
+    for folder in folders {
         for path in files(&root.join(folder))? {
             put(&mut digest, &path.strip_prefix(root).unwrap_or(&path).to_string_lossy().replace('\\', "/"));
             add(&mut digest, read(&path)?.parse().map_err(|error| form(&path, &error))?);

@@ -13,7 +13,8 @@ pub use parameters::Parameters;
 pub use parts::{DeadTime, Lag, Mover, STEP_S};
 
 use supervisor::{
-    BrakeMode, ContactorRequest, DrivingMode, EpbRequest, EpbState, Gear, GearRequest, Outputs, RetarderMode,
+    BrakeMode, Class, ContactorRequest, DrivingMode, EpbRequest, EpbState, EpbSwitch, Gear, GearRequest, Outputs,
+    RetarderMode,
 };
 
 use crate::driver::{Driver, Script};
@@ -47,7 +48,48 @@ pub struct Truth {
     pub closed: [bool; 2],
     /// The steering-wheel angle in degrees.
     pub angle: f64,
+    /// Torque that the drive gives, as a share of its greatest.
+    pub torque: f64,
+    /// Deceleration by all brakes, in m/s².
+    pub braking: f64,
+    /// Current from the battery, in A.
+    pub current: f64,
+    /// The nearest obstacle in the corridor.
+    pub ahead: Option<Ahead>,
+    /// What the driver does.
+    pub hands: Hands,
 }
+
+/// What stands or moves in the corridor ahead.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ahead {
+    /// Gap in m; negative after a collision.
+    pub gap: f64,
+    /// Closing speed in m/s.
+    pub closing: f64,
+    /// What it is.
+    pub class: Class,
+}
+
+/// What the driver does with hands and feet.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hands {
+    /// Accelerator, 0 to 1.
+    pub accelerator: f64,
+    /// Brake pedal, 0 to 1.
+    pub brake: f64,
+    /// Gear selector.
+    pub selector: Gear,
+    /// Switch of the parking brake.
+    pub epb_switch: EpbSwitch,
+    /// Cruise control switched on.
+    pub cruise: bool,
+    /// "Set" pressed.
+    pub set: bool,
+}
+
+/// Half-width of the corridor ahead of the bus, in m: half of its width, and a hand's breadth (own).
+const CORRIDOR_M: f64 = 1.5;
 
 /// The bus, its driver and its road.
 #[derive(Clone, Debug)]
@@ -66,6 +108,8 @@ pub struct Plant<'a> {
     friction: Lag,
     electric: Lag,
     retarder: Lag,
+    /// Deceleration by all brakes.
+    braked: f64,
     angle: f64,
     epb: Mover<EpbState>,
     gear: Mover<Gear>,
@@ -101,6 +145,7 @@ impl<'a> Plant<'a> {
             friction: Lag::default(),
             electric: Lag::default(),
             retarder: Lag::default(),
+            braked: 0.0,
             angle: 0.0,
             epb: Mover::new(EpbState::Applied),
             gear: Mover::new(Gear::Neutral),
@@ -204,6 +249,7 @@ impl<'a> Plant<'a> {
         let drive_force = self.drive.follow(asked.min(ceiling), p.drive_lag_s) * p.full_force_n * direction;
 
         let braking = self.braking(outputs);
+        self.braked = braking;
         let traction = drive_force * self.speed - p.mass_kg * self.electric.value() * self.speed.abs();
         let auxiliaries = if powered { p.auxiliaries_w } else { 0.0 };
         let power = if powered { traction + auxiliaries } else { 0.0 };
@@ -277,6 +323,29 @@ impl<'a> Plant<'a> {
             gear: self.gear.position(),
             closed: [self.k1.position(), self.k4.position()],
             angle: self.angle,
+            torque: self.drive.value(),
+            braking: self.braked,
+            current: self.current.value(),
+            ahead: self.ahead(),
+            hands: Hands {
+                accelerator: self.driver.accelerator,
+                brake: self.driver.brake,
+                selector: self.driver.selector,
+                epb_switch: self.driver.epb_switch,
+                cruise: self.driver.cruise,
+                set: self.driver.set,
+            },
         }
+    }
+
+    fn ahead(&self) -> Option<Ahead> {
+        let present = self.road.iter().filter(|obstacle| obstacle.present(self.now_ms));
+        let in_path = present.filter(|obstacle| obstacle.offset.abs() <= CORRIDOR_M + obstacle.body.width / 2.0);
+        let seen = in_path.map(|obstacle| Ahead {
+            gap: obstacle.rear(self.now_ms) - self.position,
+            closing: self.speed - obstacle.speed,
+            class: obstacle.body.class,
+        });
+        seen.reduce(|nearest, next| if next.gap < nearest.gap { next } else { nearest })
     }
 }
