@@ -26,6 +26,7 @@ Examples:
   supervise config seal my.toml my.bin               seal a configuration
   supervise analysis                                 check the safety analysis
   supervise trace --html target/trace.html           which code, proof and test belongs to which requirement
+  supervise coverage --html target/coverage.html     which statements, branches and conditions the tests reach
 
 Exit codes: 0 done; 1 the analysis or the traceability has findings, a harness is not proved, or a bar of the design is not
 met; 2 bad arguments, files, mapping or configuration; 3 with --fail-on-intervention, if the supervisor intervened;
@@ -168,6 +169,12 @@ pub enum Command {
     /// Needs valgrind; without it nothing is measured, and it exits with 4. Writes target/cost.md and
     /// target/cost.json. Exits with 1 if a bar of the design is not met, or a file does not show what was measured.
     Cost(Cost),
+    /// Measure which statements, branches and conditions of the decision the tests reach
+    ///
+    /// Instruments a copy of the sources, runs the tests of the step in it, and reports statement, branch and MC/DC
+    /// coverage (by masking) of each file. A whole run writes safety-case/records/coverage.json. Exits with 1 if
+    /// something is open that safety-case/analysis/coverage-open.toml does not list, or is listed there and covered.
+    Coverage(Coverage),
 }
 
 /// Arguments of `replay`.
@@ -412,6 +419,23 @@ pub struct Cost {
     /// One more argument for cargo when it builds for the target
     #[arg(long, value_name = "ARGUMENT", allow_hyphen_values = true)]
     pub cargo_arg: Vec<String>,
+}
+
+/// Arguments of `coverage`.
+#[derive(Debug, Args)]
+pub struct Coverage {
+    /// Write the figures, every decision and the vectors seen of it as JSON
+    #[arg(long, value_name = "FILE")]
+    pub json: Option<PathBuf>,
+    /// Write the sources with what is open in them as one page that works offline
+    #[arg(long, value_name = "FILE")]
+    pub html: Option<PathBuf>,
+    /// Run nothing: show the record, and whether it is stale or does not agree with the list
+    #[arg(long, conflicts_with_all = ["json", "html", "test"])]
+    pub check: bool,
+    /// Only these test programs; writes no record
+    #[arg(long, value_name = "NAME", num_args = 1..)]
+    pub test: Vec<String>,
 }
 
 #[cfg(test)]

@@ -11,6 +11,7 @@ pub mod candump;
 pub mod cli;
 pub mod commands;
 pub mod cost;
+pub mod coverage;
 pub mod cycle;
 pub mod difference;
 pub mod digest;

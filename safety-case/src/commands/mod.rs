@@ -3,6 +3,7 @@
 mod analysis;
 mod config;
 mod cost;
+mod coverage;
 mod drives;
 mod limits;
 mod mistakes;
@@ -41,6 +42,7 @@ pub fn run(cli: &Cli) -> ExitCode {
         Some(Command::Mistakes(arguments)) => mistakes::run(arguments),
         Some(Command::Trace(arguments)) => trace::run(arguments),
         Some(Command::Cost(arguments)) => cost::run(arguments),
+        Some(Command::Coverage(arguments)) => coverage::run(arguments),
     };
     match outcome {
         Ok(code) => ExitCode::from(code),

@@ -31,6 +31,6 @@ pub use progress::Progress;
 pub use raw::{RESULTS, Raw};
 pub use record::{Place, Proof, RECORD, Record};
 pub use run::Workers;
-pub use sources::{Sources, configuration_digest, default_configuration, sha256};
+pub use sources::{Sources, configuration_digest, default_configuration, sha256, shipped};
 pub use status::{Present, State, differences};
 pub use table::{block, claim, replaced, table};
