@@ -27,7 +27,7 @@ pub(super) fn run(arguments: &Coverage) -> Outcome {
         write(path, &format!("{:#}\n", document(&record, &measured)?))?;
     }
     if let Some(path) = &arguments.html {
-        write(path, &page(root, &record, &measured)?)?;
+        write(path, &page(root, &record, &measured, &Accepted::load(root)?)?)?;
     }
     print(table(&record))?;
     if !arguments.test.is_empty() {

@@ -74,11 +74,7 @@ impl Open {
 
 impl std::fmt::Display for Open {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let kind = match self.kind {
-            Kind::Statement => "statement",
-            Kind::Branch => "branch",
-            Kind::Condition => "condition",
-        };
+        let kind = self.kind.word();
         write!(f, "{}:{} {}: {kind} `{}`", self.file, self.line, self.function, self.text)?;
         if let Some(decision) = &self.decision {
             write!(f, " of `{decision}`, seen {}", self.seen.join(", "))?;

@@ -4,48 +4,41 @@
 //! stay, so what they pass over is still passed over. A statement gets `hit(n);` in front, the body of an arm or closure
 //! becomes `{hit(n);body}`. `const` goes from functions, because nothing is recorded at compile time.
 
-use std::ops::Range;
-
-use syn::parse::{ParseStream, Parser};
 use syn::spanned::Spanned;
 use syn::visit::{self, Visit};
 use syn::{Attribute, BinOp, Block, Expr, ReturnType, Signature, Stmt, Token, UnOp};
 
+use super::form::{has_let, inside, is_boolean, is_elsewhere, is_structured, range};
 use super::insert::Insertions;
 use super::plan::{Decision, Kind, Place, Plan, Point, Tree};
 use super::recorder::CONDITIONS;
 
-/// Functions whose first argument is a condition.
+/// Functions whose first argument of several is a condition.
 const CONDITIONAL: [&str; 5] = ["lower_if", "raise_if", "when", "run_while", "refuse"];
 /// Methods of `bool` that branch.
 const BRANCHING: [&str; 2] = ["then", "then_some"];
-/// Macros whose arguments are plain expressions.
-const PLAIN: [&str; 1] = ["channel"];
 /// As much of a statement is shown.
 const SHOWN: usize = 100;
 
 /// The instrumented source; what can be covered goes into the plan, numbered on from what is in it.
 ///
+/// With `keeps_const`, functions that are `const` stay so, because others are made of them, and are left out.
+///
 /// # Errors
 /// It is no Rust.
-pub fn instrument(file: &str, source: &str, plan: &mut Plan) -> Result<String, syn::Error> {
+pub fn instrument(file: &str, source: &str, keeps_const: bool, plan: &mut Plan) -> Result<String, syn::Error> {
     let parsed = syn::parse_file(source)?;
-    let mut walk = Walk {
-        file,
-        source,
-        plan,
-        insertions: Insertions::default(),
-        owner: None,
-        function: None,
-    };
+    let mut walk =
+        Walk { file, source, keeps_const, plan, insertions: Insertions::default(), owner: None, function: None };
     walk.visit_file(&parsed);
     let misplaced = || syn::Error::new(parsed.span(), "a place outside of the file");
     walk.insertions.put_into(source).ok_or_else(misplaced)
 }
 
-struct Walk<'a> {
+pub(super) struct Walk<'a> {
     file: &'a str,
     source: &'a str,
+    keeps_const: bool,
     plan: &'a mut Plan,
     insertions: Insertions,
     owner: Option<String>,
@@ -62,23 +55,28 @@ impl Walk<'_> {
     fn text(&self, of: &impl Spanned) -> String {
         let text = self.source.get(range(of)).unwrap_or_default();
         let lines = text.lines().map(|line| line.split(" //").next().unwrap_or_default());
-        let words: Vec<&str> = lines.filter(|line| !line.trim_start().starts_with("//")).flat_map(str::split_whitespace).collect();
+        let words: Vec<&str> =
+            lines.filter(|line| !line.trim_start().starts_with("//")).flat_map(str::split_whitespace).collect();
         words.join(" ")
     }
 
     fn point(&mut self, kind: Kind, at: &impl Spanned, text: String) -> usize {
-        let text = text.char_indices().nth(SHOWN).and_then(|(end, _)| text.get(..end)).map_or(text.clone(), |start| format!("{start}…"));
+        let text = text
+            .char_indices()
+            .nth(SHOWN)
+            .and_then(|(end, _)| text.get(..end))
+            .map_or(text.clone(), |start| format!("{start}…"));
         self.plan.points.push(Point { place: self.place(at), kind, text });
         self.plan.points.len().saturating_sub(1)
     }
 
-    fn left_out(&mut self, at: &impl Spanned, why: String) {
+    pub(super) fn left_out(&mut self, at: &impl Spanned, why: String) {
         let place = self.place(at);
         self.plan.left_out.push((place, why));
     }
 
     /// A boolean expression that is no part of a greater one.
-    fn decision(&mut self, whole: &Expr, branches: bool) {
+    pub(super) fn decision(&mut self, whole: &Expr, branches: bool) {
         if matches!(whole, Expr::Lit(_)) {
             return;
         }
@@ -97,85 +95,51 @@ impl Walk<'_> {
             None => 0,
         };
         if conditions > CONDITIONS {
-            self.left_out(whole, format!("{conditions} conditions in one decision, where {CONDITIONS} can be recorded"));
+            self.left_out(
+                whole,
+                format!("{conditions} conditions in one decision, where {CONDITIONS} can be recorded"),
+            );
         }
     }
 
     fn tree(&mut self, part: &Expr, decision: usize) -> Tree {
-        match part {
-            Expr::Paren(inner) => self.tree(&inner.expr, decision),
-            Expr::Unary(not) if matches!(not.op, UnOp::Not(_)) => Tree::Not(Box::new(self.tree(&not.expr, decision))),
-            Expr::Binary(both) if matches!(both.op, BinOp::And(_)) => {
-                let left = self.tree(&both.left, decision);
-                Tree::All(Box::new(left), Box::new(self.tree(&both.right, decision)))
-            }
-            Expr::Binary(both) if matches!(both.op, BinOp::Or(_)) => {
-                let left = self.tree(&both.left, decision);
-                Tree::Any(Box::new(left), Box::new(self.tree(&both.right, decision)))
-            }
-            condition => {
-                let shown = (condition.span().start().line, self.text(condition));
-                let conditions = self.plan.decisions.get_mut(decision).map(|decision| &mut decision.conditions);
-                let number = conditions.map_or(0, |conditions| {
-                    conditions.push(shown);
-                    conditions.len().saturating_sub(1)
-                });
-                self.insertions.wrap(&range(condition), format!("__d.c({number},"), ")");
-                self.within(condition);
-                Tree::Leaf(number)
-            }
+        if let Expr::Paren(inner) = part {
+            return self.tree(&inner.expr, decision);
         }
+        if let Expr::Unary(not) = part
+            && matches!(not.op, UnOp::Not(_))
+        {
+            return Tree::Not(Box::new(self.tree(&not.expr, decision)));
+        }
+        if let Expr::Binary(both) = part
+            && matches!(both.op, BinOp::And(_) | BinOp::Or(_))
+        {
+            let left = Box::new(self.tree(&both.left, decision));
+            let right = Box::new(self.tree(&both.right, decision));
+            return if matches!(both.op, BinOp::And(_)) { Tree::All(left, right) } else { Tree::Any(left, right) };
+        }
+        let shown = (part.span().start().line, self.text(part));
+        let conditions = self.plan.decisions.get_mut(decision).map(|decision| &mut decision.conditions);
+        let number = conditions.map_or(0, |conditions| {
+            conditions.push(shown);
+            conditions.len().saturating_sub(1)
+        });
+        self.insertions.wrap(&range(part), format!("__d.c({number},"), ")");
+        self.within(part);
+        Tree::Leaf(number)
     }
 
     /// What is inside a condition, which itself is no decision.
     fn within(&mut self, condition: &Expr) {
-        match condition {
-            Expr::Binary(compared) => {
-                self.visit_expr(&compared.left);
-                self.visit_expr(&compared.right);
-            }
-            Expr::Macro(matches) if matches.mac.path.is_ident("matches") => self.matched(&matches.mac),
-            other => self.visit_expr(other),
-        }
-    }
-
-    /// The expression of `matches!`.
-    fn matched(&mut self, mac: &syn::Macro) {
-        let parts = |input: ParseStream| {
-            let (value, _): (Expr, Token![,]) = (input.parse()?, input.parse()?);
-            Ok((value, syn::Pat::parse_multi_with_leading_vert(input)?, input.is_empty() || input.peek(Token![,]), input.parse::<proc_macro2::TokenStream>()?))
-        };
-        match parts.parse2(mac.tokens.clone()) {
-            Ok((value, _, whole, _)) => {
-                self.visit_expr(&value);
-                if !whole {
-                    self.left_out(mac, "the guard of matches!".to_owned());
-                }
-            }
-            Err(error) => self.left_out(mac, format!("matches!: {error}")),
-        }
-    }
-
-    /// `condition => reason, ..`: each condition is a decision that branches.
-    fn permit(&mut self, mac: &syn::Macro) {
-        let pairs = |input: ParseStream| {
-            let mut pairs: Vec<(Expr, Expr)> = Vec::new();
-            while !input.is_empty() {
-                let condition = input.parse()?;
-                input.parse::<Token![=>]>()?;
-                pairs.push((condition, input.parse()?));
-                input.parse::<Option<Token![,]>>()?;
-            }
-            Ok(pairs)
-        };
-        match pairs.parse2(mac.tokens.clone()) {
-            Ok(pairs) => {
-                for (condition, reason) in &pairs {
-                    self.decision(condition, true);
-                    self.visit_expr(reason);
-                }
-            }
-            Err(error) => self.left_out(mac, format!("permit!: {error}")),
+        if let Expr::Binary(compared) = condition {
+            self.visit_expr(&compared.left);
+            self.visit_expr(&compared.right);
+        } else if let Expr::Macro(matches) = condition
+            && matches.mac.path.is_ident("matches")
+        {
+            self.matched(&matches.mac);
+        } else {
+            self.visit_expr(condition);
         }
     }
 
@@ -199,28 +163,15 @@ impl Walk<'_> {
     }
 
     fn chained(&mut self, part: &Expr) {
-        match part {
-            Expr::Let(bound) => self.visit_expr(&bound.expr),
-            Expr::Binary(both) if matches!(both.op, BinOp::And(_)) => {
-                self.chained(&both.left);
-                self.chained(&both.right);
-            }
-            condition => self.decision(condition, false),
-        }
-    }
-
-    fn called(&mut self, mac: &syn::Macro) {
-        let name = mac.path.segments.last().map(|segment| segment.ident.to_string()).unwrap_or_default();
-        if name == "permit" {
-            self.permit(mac);
-        } else if PLAIN.contains(&name.as_str()) {
-            let list = syn::punctuated::Punctuated::<Expr, Token![,]>::parse_terminated;
-            match list.parse2(mac.tokens.clone()) {
-                Ok(list) => list.iter().for_each(|argument| self.visit_expr(argument)),
-                Err(error) => self.left_out(mac, format!("{name}!: {error}")),
-            }
+        if let Expr::Let(bound) = part {
+            self.visit_expr(&bound.expr);
+        } else if let Expr::Binary(both) = part
+            && matches!(both.op, BinOp::And(_))
+        {
+            self.chained(&both.left);
+            self.chained(&both.right);
         } else {
-            self.left_out(mac, format!("{name}!"));
+            self.decision(part, false);
         }
     }
 
@@ -229,9 +180,17 @@ impl Walk<'_> {
         if attributes.iter().any(is_elsewhere) {
             return;
         }
-        let name = self.owner.as_ref().map_or_else(|| signature.ident.to_string(), |owner| format!("{owner}::{}", signature.ident));
+        let name = self
+            .owner
+            .as_ref()
+            .map_or_else(|| signature.ident.to_string(), |owner| format!("{owner}::{}", signature.ident));
         let around = self.function.replace(name);
         if let Some(constness) = &signature.constness {
+            if self.keeps_const {
+                self.left_out(constness, "const, and others that are const call it".to_owned());
+                self.function = around;
+                return;
+            }
             self.insertions.wrap(&range(constness), "/*", "*/");
         }
         let gives_bool = matches!(&signature.output, ReturnType::Type(_, of) if matches!(of.as_ref(), syn::Type::Path(path) if path.path.is_ident("bool")));
@@ -249,7 +208,9 @@ impl Walk<'_> {
             let point = self.point(Kind::Statement, statement, text);
             self.insertions.open(range(statement).start, format!("::recorder::hit({point});"));
             match statement {
-                Stmt::Expr(value, None) if gives_bool && number == last && !is_structured(value) => self.decision(value, false),
+                Stmt::Expr(value, None) if gives_bool && number == last && !is_structured(value) => {
+                    self.decision(value, false)
+                }
                 Stmt::Local(local) => self.local(local),
                 Stmt::Macro(called) => self.called(&called.mac),
                 Stmt::Expr(expression, _) => self.visit_expr(expression),
@@ -326,113 +287,75 @@ impl<'ast> Visit<'ast> for Walk<'_> {
     }
 
     fn visit_expr(&mut self, expression: &'ast Expr) {
-        match expression {
-            Expr::If(whole) if has_let(&whole.cond) => self.if_let(whole),
-            Expr::If(whole) => {
-                self.decision(&whole.cond, true);
-                self.visit_block(&whole.then_branch);
-                if let Some((_, other)) = &whole.else_branch {
-                    self.visit_expr(other);
-                }
-            }
-            Expr::While(whole) if has_let(&whole.cond) => {
-                self.left_out(whole, "while let".to_owned());
-                self.visit_block(&whole.body);
-            }
-            Expr::While(whole) => {
-                self.decision(&whole.cond, true);
-                self.visit_block(&whole.body);
-            }
-            boolean if is_boolean(boolean) => self.decision(boolean, false),
-            Expr::Macro(called) => self.called(&called.mac),
-            Expr::MethodCall(call) => {
-                let name = call.method.to_string();
-                if BRANCHING.contains(&name.as_str()) {
-                    self.decision(&call.receiver, true);
-                } else {
-                    self.visit_expr(&call.receiver);
-                }
-                self.arguments(&name, &call.args);
-            }
-            Expr::Call(call) => {
-                let name = match call.func.as_ref() {
-                    Expr::Path(path) => path.path.segments.last().map(|segment| segment.ident.to_string()),
-                    _ => None,
-                };
-                self.visit_expr(&call.func);
-                self.arguments(&name.unwrap_or_default(), &call.args);
-            }
-            Expr::Closure(closure) if !matches!(closure.body.as_ref(), Expr::Block(_)) => {
-                let text = self.text(closure);
-                let point = self.point(Kind::Statement, closure, text);
-                self.insertions.wrap(&range(closure.body.as_ref()), format!("{{::recorder::hit({point});"), "}");
-                self.visit_expr(&closure.body);
-            }
-            Expr::Try(tried) => {
-                let text = self.text(tried);
-                let on = self.point(Kind::Branch, tried, format!("{text}: goes on"));
-                let back = self.point(Kind::Branch, tried, format!("{text}: returns"));
-                self.insertions.wrap(&range(tried.expr.as_ref()), format!("::recorder::tried({on},{back},"), ")");
-                self.visit_expr(&tried.expr);
-            }
-            other => visit::visit_expr(self, other),
+        if is_boolean(expression) {
+            return self.decision(expression, false);
         }
+        if let Expr::Closure(closure) = expression
+            && !matches!(closure.body.as_ref(), Expr::Block(_))
+        {
+            let text = self.text(closure);
+            let point = self.point(Kind::Statement, closure, text);
+            self.insertions.wrap(&range(closure.body.as_ref()), format!("{{::recorder::hit({point});"), "}");
+        }
+        visit::visit_expr(self, expression);
+    }
+
+    fn visit_expr_if(&mut self, whole: &'ast syn::ExprIf) {
+        if has_let(&whole.cond) {
+            return self.if_let(whole);
+        }
+        self.decision(&whole.cond, true);
+        self.visit_block(&whole.then_branch);
+        if let Some((_, other)) = &whole.else_branch {
+            self.visit_expr(other);
+        }
+    }
+
+    fn visit_expr_while(&mut self, whole: &'ast syn::ExprWhile) {
+        if has_let(&whole.cond) {
+            self.left_out(whole, "while let".to_owned());
+        } else {
+            self.decision(&whole.cond, true);
+        }
+        self.visit_block(&whole.body);
+    }
+
+    fn visit_expr_macro(&mut self, called: &'ast syn::ExprMacro) {
+        self.called(&called.mac);
+    }
+
+    fn visit_expr_method_call(&mut self, call: &'ast syn::ExprMethodCall) {
+        let name = call.method.to_string();
+        if BRANCHING.contains(&name.as_str()) {
+            self.decision(&call.receiver, true);
+        } else {
+            self.visit_expr(&call.receiver);
+        }
+        self.arguments(&name, &call.args);
+    }
+
+    fn visit_expr_call(&mut self, call: &'ast syn::ExprCall) {
+        self.visit_expr(&call.func);
+        self.arguments(&self.text(&call.func), &call.args);
+    }
+
+    fn visit_expr_try(&mut self, tried: &'ast syn::ExprTry) {
+        let text = self.text(tried);
+        let on = self.point(Kind::Branch, tried, format!("{text}: goes on"));
+        let back = self.point(Kind::Branch, tried, format!("{text}: returns"));
+        self.insertions.wrap(&range(tried.expr.as_ref()), format!("::recorder::tried({on},{back},"), ")");
+        self.visit_expr(&tried.expr);
     }
 }
 
 impl Walk<'_> {
     fn arguments(&mut self, name: &str, arguments: &syn::punctuated::Punctuated<Expr, Token![,]>) {
         for (number, argument) in arguments.iter().enumerate() {
-            if number == 0 && CONDITIONAL.contains(&name) {
+            if number == 0 && arguments.len() > 1 && CONDITIONAL.contains(&name) {
                 self.decision(argument, false);
             } else {
                 self.visit_expr(argument);
             }
         }
-    }
-}
-
-fn range(of: &impl Spanned) -> Range<usize> {
-    of.span().byte_range()
-}
-
-/// Behind the brace that opens it.
-fn inside(block: &Block) -> usize {
-    block.brace_token.span.open().byte_range().end
-}
-
-/// Not compiled here: proofs, contracts, fuzzers, tests.
-fn is_elsewhere(attribute: &Attribute) -> bool {
-    let words = |list: &syn::MetaList| list.tokens.to_string();
-    attribute.path().is_ident("cfg")
-        && attribute.meta.require_list().is_ok_and(|list| ["kani", "creusot", "fuzzing", "test"].iter().any(|word| words(list).contains(word)))
-}
-
-/// Boolean by its form.
-fn is_boolean(expression: &Expr) -> bool {
-    match expression {
-        Expr::Paren(inner) => is_boolean(&inner.expr),
-        Expr::Unary(not) => matches!(not.op, UnOp::Not(_)),
-        Expr::Binary(both) => matches!(
-            both.op,
-            BinOp::And(_) | BinOp::Or(_) | BinOp::Eq(_) | BinOp::Ne(_) | BinOp::Lt(_) | BinOp::Le(_) | BinOp::Gt(_) | BinOp::Ge(_)
-        ),
-        Expr::Macro(called) => called.mac.path.is_ident("matches"),
-        _ => false,
-    }
-}
-
-/// Has branches of its own, or returns by itself.
-fn is_structured(expression: &Expr) -> bool {
-    matches!(expression, Expr::If(_) | Expr::Match(_) | Expr::Block(_) | Expr::Return(_) | Expr::Macro(_))
-        && !is_boolean(expression)
-}
-
-/// Binds by a pattern.
-fn has_let(condition: &Expr) -> bool {
-    match condition {
-        Expr::Let(_) => true,
-        Expr::Binary(both) => matches!(both.op, BinOp::And(_)) && (has_let(&both.left) || has_let(&both.right)),
-        _ => false,
     }
 }

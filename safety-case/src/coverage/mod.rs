@@ -13,8 +13,10 @@
 
 mod error;
 mod figures;
+mod form;
 mod insert;
 mod instrument;
+mod macros;
 mod open;
 mod page;
 mod plan;

@@ -52,7 +52,7 @@ impl Accepted {
         }
     }
 
-    fn is_of(&self, open: &Open) -> bool {
+    pub(super) fn is_of(&self, open: &Open) -> bool {
         self.file == open.file
             && self.function == open.function
             && self.kind == open.kind
@@ -86,8 +86,12 @@ impl std::fmt::Display for Finding {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::Open(open) => write!(f, "OPEN: {open}"),
-            Self::Idle(entry) => write!(f, "listed as open, and is not: {} {}: {}", entry.file, entry.function, entry.text),
-            Self::Stale => f.write_str("STALE: the sources are others than those that were measured; run `supervise coverage`"),
+            Self::Idle(entry) => {
+                write!(f, "listed as open, and is not: {} {}: {}", entry.file, entry.function, entry.text)
+            }
+            Self::Stale => {
+                f.write_str("STALE: the sources are others than those that were measured; run `supervise coverage`")
+            }
             Self::OtherTests => f.write_str("note: the tests changed since; these figures are of the tests of then"),
         }
     }

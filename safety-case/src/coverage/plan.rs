@@ -27,6 +27,18 @@ pub enum Kind {
     Condition,
 }
 
+impl Kind {
+    /// In a word.
+    #[must_use]
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Statement => "statement",
+            Self::Branch => "branch",
+            Self::Condition => "condition",
+        }
+    }
+}
+
 /// A place that is reached or not.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Point {

@@ -13,8 +13,8 @@ use super::instrument::instrument;
 use super::plan::{Plan, Vector};
 use crate::mistakes::Copy;
 
-/// What is copied.
-const FOLDERS: [&str; 3] = ["supervisor", "proofs", "tests"];
+/// What is copied; the tests read the corpus of the fuzzers.
+const FOLDERS: [&str; 4] = ["supervisor", "proofs", "tests", "fuzz"];
 /// What `decide` and `vet` are made of: the core, what it reads the inputs with, and its arithmetic and timers.
 const SOURCES: [&str; 4] = [
     "supervisor/core/src",
@@ -22,6 +22,8 @@ const SOURCES: [&str; 4] = [
     "supervisor/terms/src/kernel.rs",
     "supervisor/terms/src/units.rs",
 ];
+/// Where functions that are `const` must stay so.
+const KEEPS_CONST: &str = "supervisor/terms";
 /// The packages of these sources.
 const PACKAGES: [&str; 3] = ["supervisor/core", "supervisor/observe", "supervisor/terms"];
 /// The packages whose tests go through the real step.
@@ -108,7 +110,9 @@ pub fn plan(root: &Path) -> Result<(Plan, BTreeMap<PathBuf, String>), CoverageEr
             let path = root.join(&file);
             let text = read(&path)?;
             let name = file.to_string_lossy().replace('\\', "/");
-            let text = instrument(&name, &text, &mut plan).map_err(|error| CoverageError::form(&path, &error))?;
+            let keeps_const = name.starts_with(KEEPS_CONST);
+            let text =
+                instrument(&name, &text, keeps_const, &mut plan).map_err(|error| CoverageError::form(&path, &error))?;
             changed.insert(file, text);
         }
     }
