@@ -436,6 +436,9 @@ pub struct Coverage {
     /// Only these test programs; writes no record
     #[arg(long, value_name = "NAME", num_args = 1..)]
     pub test: Vec<String>,
+    /// Run again what has passed in the same copy before
+    #[arg(long, conflicts_with = "check")]
+    pub again: bool,
 }
 
 #[cfg(test)]

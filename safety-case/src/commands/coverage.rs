@@ -18,7 +18,7 @@ pub(super) fn run(arguments: &Coverage) -> Outcome {
             failure = Some(error);
         }
     };
-    let measured = measure(root, &arguments.test, &mut say)?;
+    let measured = measure(root, &arguments.test, arguments.again, &mut say)?;
     if let Some(error) = failure {
         return Err(error.into());
     }
@@ -38,7 +38,7 @@ pub(super) fn run(arguments: &Coverage) -> Outcome {
         return Ok(0);
     }
     record.save(root)?;
-    judge(compare(&record.open, &Accepted::load(root)?))
+    judge(&compare(&record.open, &Accepted::load(root)?))
 }
 
 /// The record against the present sources and the list.
@@ -49,11 +49,11 @@ fn check(root: &Path) -> Outcome {
     let (sources, tests) = record.is_current(root)?;
     findings.extend((!sources).then_some(Finding::Stale));
     findings.extend((!tests).then_some(Finding::OtherTests));
-    judge(findings)
+    judge(&findings)
 }
 
-fn judge(findings: Vec<Finding>) -> Outcome {
-    for finding in &findings {
+fn judge(findings: &[Finding]) -> Outcome {
+    for finding in findings {
         print(format_args!("{finding}\n"))?;
     }
     Ok(if findings.iter().any(Finding::fails) { FINDINGS } else { 0 })

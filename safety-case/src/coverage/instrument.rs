@@ -61,11 +61,8 @@ impl Walk<'_> {
     }
 
     fn point(&mut self, kind: Kind, at: &impl Spanned, text: String) -> usize {
-        let text = text
-            .char_indices()
-            .nth(SHOWN)
-            .and_then(|(end, _)| text.get(..end))
-            .map_or(text.clone(), |start| format!("{start}…"));
+        let end = text.char_indices().nth(SHOWN).map(|(end, _)| end);
+        let text = end.and_then(|end| text.get(..end)).map(|start| format!("{start}…")).unwrap_or(text);
         self.plan.points.push(Point { place: self.place(at), kind, text });
         self.plan.points.len().saturating_sub(1)
     }
@@ -209,7 +206,7 @@ impl Walk<'_> {
             self.insertions.open(range(statement).start, format!("::recorder::hit({point});"));
             match statement {
                 Stmt::Expr(value, None) if gives_bool && number == last && !is_structured(value) => {
-                    self.decision(value, false)
+                    self.decision(value, false);
                 }
                 Stmt::Local(local) => self.local(local),
                 Stmt::Macro(called) => self.called(&called.mac),

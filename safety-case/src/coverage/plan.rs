@@ -204,8 +204,20 @@ mod tests {
         Decision { place, text: String::new(), branches: true, conditions: vec![(1, String::new()); conditions], tree }
     }
 
-    fn leaf(number: usize) -> Box<Tree> {
-        Box::new(Tree::Leaf(number))
+    fn leaf(number: usize) -> Tree {
+        Tree::Leaf(number)
+    }
+
+    fn all(left: Tree, right: Tree) -> Tree {
+        Tree::All(Box::new(left), Box::new(right))
+    }
+
+    fn any(left: Tree, right: Tree) -> Tree {
+        Tree::Any(Box::new(left), Box::new(right))
+    }
+
+    fn not(inner: Tree) -> Tree {
+        Tree::Not(Box::new(inner))
     }
 
     fn vector(letters: &str) -> Vector {
@@ -225,7 +237,7 @@ mod tests {
 
     #[test]
     fn and_needs_each_condition_false_once() {
-        let and = decision(Tree::All(leaf(0), leaf(1)), 2);
+        let and = decision(all(leaf(0), leaf(1)), 2);
         assert_eq!(shown(&and, &["TTT", "F-F", "TFF"]), (vec![true, true], vec![true, true]));
         assert_eq!(shown(&and, &["TTT", "F-F"]), (vec![true, false], vec![true, false]), "the second was never false");
         assert_eq!(shown(&and, &["TTT", "TFF"]), (vec![false, true], vec![false, true]), "the first was never false");
@@ -235,14 +247,14 @@ mod tests {
 
     #[test]
     fn or_needs_each_condition_true_once() {
-        let or = decision(Tree::Any(leaf(0), leaf(1)), 2);
+        let or = decision(any(leaf(0), leaf(1)), 2);
         assert_eq!(shown(&or, &["FFF", "T-T", "FTT"]), (vec![true, true], vec![true, true]));
         assert_eq!(shown(&or, &["FFF", "FTT"]).0, [false, true]);
     }
 
     #[test]
     fn not_changes_nothing_of_it() {
-        let not = decision(Tree::Not(Box::new(Tree::All(leaf(0), Box::new(Tree::Not(leaf(1)))))), 2);
+        let not = decision(not(all(leaf(0), not(leaf(1)))), 2);
         assert_eq!(shown(&not, &["TFF", "F-T", "TTT"]).0, [true, true]);
         assert_eq!(shown(&not, &["TFF", "TTT"]).0, [false, true]);
     }
@@ -250,7 +262,7 @@ mod tests {
     #[test]
     fn a_masked_condition_shows_nothing() {
         // (a && b) || c
-        let tree = decision(Tree::Any(Box::new(Tree::All(leaf(0), leaf(1))), leaf(2)), 3);
+        let tree = decision(any(all(leaf(0), leaf(1)), leaf(2)), 3);
         assert_eq!(shown(&tree, &["TT-T", "F-TT"]).0, [false, false, false], "c is true: a false changes nothing");
         assert_eq!(shown(&tree, &["TT-T", "F-FF"]).0, [true, false, false]);
         assert_eq!(shown(&tree, &["TT-T", "F-FF", "TFFF", "TFTT"]).0, [true, true, true]);
@@ -259,14 +271,14 @@ mod tests {
     #[test]
     fn masking_allows_what_unique_cause_does_not() {
         // (a || b) && c: c is true by a, and false by b.
-        let tree = decision(Tree::All(Box::new(Tree::Any(leaf(0), leaf(1))), leaf(2)), 3);
+        let tree = decision(all(any(leaf(0), leaf(1)), leaf(2)), 3);
         let (masking, unique) = shown(&tree, &["T-TT", "FTFF"]);
         assert!(masking[2] && !unique[2], "{masking:?} {unique:?}");
     }
 
     #[test]
     fn letters_are_read_by_people() {
-        let and = decision(Tree::All(leaf(0), leaf(1)), 2);
+        let and = decision(all(leaf(0), leaf(1)), 2);
         assert_eq!(and.letters(&vector("F-F")), "F- → F");
     }
 }
