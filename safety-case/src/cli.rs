@@ -31,6 +31,7 @@ Examples:
   supervise analysis                                 check the safety analysis
   supervise inject --html target/inject.html         faults in correct drives, and what becomes of the bus
   supervise trace --html target/trace.html           which code, proof and test belongs to which requirement
+  supervise coverage --html target/coverage.html     which statements, branches and conditions the tests reach
 
 Exit codes: 0 done; 1 the analysis or the traceability has findings, a harness is not proved, or a bar of the design is not
 met; 2 bad arguments, files, mapping or configuration; 3 with --fail-on-intervention, if the supervisor intervened;
@@ -77,7 +78,7 @@ a field changed). All mutants are built once, each behind a switch, into target/
 supervisor-tests and supervisor-proofs run for each mutant, those first that catch most in the least time, until one fails.
 Nothing but tests counts here; what the proofs catch is `supervise mistakes`.
 
-A mutant that no test notices survived; tests/mutants.toml may explain why it changes nothing. The record is tests/mutants.json;
+A mutant that no test notices survived; safety-case/analysis/mutants.toml may explain why it changes nothing. The record is safety-case/records/mutants.json;
 it is stale as soon as a token of the shipped sources changed.
 
 Examples:
@@ -196,6 +197,12 @@ pub enum Command {
     /// Inject faults into correct drives at random times, and judge what becomes of the bus
     #[command(long_about = inject::ABOUT)]
     Inject(Inject),
+    /// Measure which statements, branches and conditions of the decision the tests reach
+    ///
+    /// Instruments a copy of the sources, runs the tests of the step in it, and reports statement, branch and MC/DC
+    /// coverage (by masking) of each file. A whole run writes safety-case/records/coverage.json. Exits with 1 if
+    /// something is open that safety-case/analysis/coverage-open.toml does not list, or is listed there and covered.
+    Coverage(Coverage),
 }
 
 /// Arguments of `replay`.
@@ -460,6 +467,26 @@ pub struct Cost {
     /// One more argument for cargo when it builds for the target
     #[arg(long, value_name = "ARGUMENT", allow_hyphen_values = true)]
     pub cargo_arg: Vec<String>,
+}
+
+/// Arguments of `coverage`.
+#[derive(Debug, Args)]
+pub struct Coverage {
+    /// Write the figures, every decision and the vectors seen of it as JSON
+    #[arg(long, value_name = "FILE")]
+    pub json: Option<PathBuf>,
+    /// Write the sources with what is open in them as one page that works offline
+    #[arg(long, value_name = "FILE")]
+    pub html: Option<PathBuf>,
+    /// Run nothing: show the record, and whether it is stale or does not agree with the list
+    #[arg(long, conflicts_with_all = ["json", "html", "test"])]
+    pub check: bool,
+    /// Only these test programs; writes no record
+    #[arg(long, value_name = "NAME", num_args = 1..)]
+    pub test: Vec<String>,
+    /// Run again what has passed in the same copy before
+    #[arg(long, conflicts_with = "check")]
+    pub again: bool,
 }
 
 #[cfg(test)]

@@ -12,6 +12,7 @@ pub mod candump;
 pub mod cli;
 pub mod commands;
 pub mod cost;
+pub mod coverage;
 pub mod cycle;
 pub mod difference;
 pub mod digest;

@@ -30,9 +30,14 @@ fn event(bus: &mut Bus, dice: &mut Dice<'_>, reached: &mut Reached) {
         2..=4 => change_command(dice, &mut bus.commands),
         _ => change_input(dice, &mut bus.inputs),
     }
-    for _ in 0..dice.of(&[0, 0, 1, 1, 2, 5, 30, 110]) {
+    if dice.one_in(16) {
+        bus.follows = !bus.follows;
+    }
+    // So long that a speed that is lost ends a level.
+    let long = dice.one_in(16);
+    for _ in 0..if long { 220 } else { dice.of(&[0, 0, 1, 1, 2, 5, 30, 110]) } {
         let (old, inputs, scene, commands) = (bus.state(), bus.inputs, bus.scene.clone(), bus.commands);
-        let decision = bus.step_by(cycle(dice));
+        let decision = bus.step_by(if long { 50 } else { cycle(dice) });
         judge(old, bus.now, bus.sealed(), (&inputs, &scene, &commands), &decision);
         reached.look(&decision);
     }

@@ -9,7 +9,7 @@ use supervisor::wire::{Frame, Message, Receiver, Sender};
 /// So many cycles at most.
 const LONGEST: u64 = 1_000;
 /// How long the senders are heard before the first step, in cycles: long enough for every one of them to qualify.
-const HEARD: u32 = 100;
+const HEARD: u32 = 150;
 
 /// What the senders on the bus say.
 struct Road {
@@ -55,9 +55,11 @@ pub fn wire_bytes(bytes: &[u8], reached: &mut Reached) {
             4 | 5 => change_command(&mut dice, &mut road.commands),
             6 => change_scene(&mut dice, &mut road.scene),
             _ => {
-                let (count, tampers) = (dice.of(&[1, 1, 2, 5, 30, 110]), dice.one_in(3));
+                // So long that a speed that is lost ends a level.
+                let long = dice.one_in(16);
+                let (count, tampers) = (if long { 220 } else { dice.of(&[1, 1, 2, 5, 30, 110]) }, dice.one_in(3));
                 for _ in 0..count {
-                    let elapsed = cycle(&mut dice);
+                    let elapsed = if long { 50 } else { cycle(&mut dice) };
                     let now = bus.now.wrapping_add(elapsed);
                     send(&mut dice, now, tampers, &mut road, &mut receiver);
                     let sample = receiver.sample(Millis::new(now));

@@ -3,6 +3,7 @@
 mod analysis;
 mod config;
 mod cost;
+mod coverage;
 mod drives;
 mod inject;
 mod limits;
@@ -45,6 +46,7 @@ pub fn run(cli: &Cli) -> ExitCode {
         Some(Command::Trace(arguments)) => trace::run(arguments),
         Some(Command::Cost(arguments)) => cost::run(arguments),
         Some(Command::Inject(arguments)) => inject::run(arguments),
+        Some(Command::Coverage(arguments)) => coverage::run(arguments),
     };
     match outcome {
         Ok(code) => ExitCode::from(code),

@@ -7,7 +7,7 @@ use super::{FINDINGS, NOT_RUN, Outcome, print};
 use crate::cli::Mutants;
 use crate::mistakes::{Shard, available};
 use crate::mutants::{Explained, Record, Request, run as mutate};
-use crate::prove::Sources;
+use crate::prove::shipped;
 
 pub(super) fn run(arguments: &Mutants) -> Outcome {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().ok_or("the workspace has no folder")?;
@@ -68,7 +68,7 @@ fn show(root: &Path) -> Outcome {
     if left_out > 0 {
         findings.push(format!("{left_out} mutants cannot be switched and were not tried"));
     }
-    if record.sources != Sources::load(root)?.shipped {
+    if record.sources != shipped(root)? {
         findings.push("the record is stale: the shipped sources have changed since".to_owned());
     }
     for finding in &findings {

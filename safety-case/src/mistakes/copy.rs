@@ -1,6 +1,6 @@
 //! A small copy of the workspace, in which a mistake is planted: the sources themselves are never touched.
 
-use std::collections::HashSet;
+use std::collections::{BTreeMap, BTreeSet, HashSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -16,6 +16,7 @@ const OTHERS: [&str; 3] = ["creusot", "target", "results"];
 /// A copy of the workspace.
 #[derive(Clone, Debug)]
 pub struct Copy {
+    folders: &'static [&'static str],
     original: PathBuf,
     root: PathBuf,
     target: PathBuf,
@@ -31,11 +32,19 @@ impl Copy {
     /// # Errors
     /// It cannot be written.
     pub fn new(original: &Path, folder: &Path) -> Result<Self, ProveError> {
-        let (root, target) = (folder.join("copy"), folder.join("build"));
-        let copy = Self { original: original.to_owned(), root, target };
-        fs::create_dir_all(&copy.target).map_err(|error| failed(&copy.target, error))?;
+        let copy = Self::of(&FOLDERS, original, folder)?;
         copy.restore()?;
         Ok(copy)
+    }
+
+    /// A copy of these folders, in which nothing stands yet.
+    ///
+    /// # Errors
+    /// The folder for what is built cannot be made.
+    pub fn of(folders: &'static [&'static str], original: &Path, folder: &Path) -> Result<Self, ProveError> {
+        let (root, target) = (folder.join("copy"), folder.join("build"));
+        fs::create_dir_all(&target).map_err(|error| failed(&target, error))?;
+        Ok(Self { folders, original: original.to_owned(), root, target })
     }
 
     /// The root of the copied workspace.
@@ -56,17 +65,31 @@ impl Copy {
     /// # Errors
     /// A file cannot be read or written.
     pub fn restore(&self) -> Result<(), ProveError> {
+        self.restore_with(&BTreeMap::new())
+    }
+
+    /// The same, but for these files, which are changed or new; the manifest takes their first folders in as members, too.
+    ///
+    /// # Errors
+    /// A file cannot be read or written.
+    pub fn restore_with(&self, changed: &BTreeMap<PathBuf, String>) -> Result<(), ProveError> {
         let mut wanted = HashSet::new();
-        for folder in FOLDERS {
-            self.take(Path::new(folder), &mut wanted)?;
+        for (file, text) in changed {
+            self.put(file, text.as_bytes())?;
+            wanted.insert(self.root.join(file));
+        }
+        for folder in self.folders {
+            self.take(Path::new(folder), changed, &mut wanted)?;
         }
         for file in ["Cargo.lock", "clippy.toml"] {
             let path = self.original.join(file);
             let text = fs::read(&path).map_err(|error| failed(&path, error))?;
             self.put(Path::new(file), &text)?;
         }
-        self.put(Path::new("Cargo.toml"), self.manifest()?.as_bytes())?;
-        for folder in FOLDERS {
+        let new = changed.keys().filter_map(|file| file.iter().next()?.to_str());
+        let new: BTreeSet<&str> = new.filter(|folder| !self.folders.contains(folder)).collect();
+        self.put(Path::new("Cargo.toml"), self.manifest(&new)?.as_bytes())?;
+        for folder in self.folders {
             sweep(&self.root.join(folder), &wanted)?;
         }
         Ok(())
@@ -104,16 +127,21 @@ impl Copy {
         folder.and_then(|()| fs::write(&path, text)).map_err(|error| failed(&path, error))
     }
 
-    fn take(&self, folder: &Path, wanted: &mut HashSet<PathBuf>) -> Result<(), ProveError> {
+    fn take(
+        &self,
+        folder: &Path,
+        changed: &BTreeMap<PathBuf, String>,
+        wanted: &mut HashSet<PathBuf>,
+    ) -> Result<(), ProveError> {
         let from = self.original.join(folder);
         for entry in fs::read_dir(&from).map_err(|error| failed(&from, error))? {
             let entry = entry.map_err(|error| failed(&from, error))?;
             let (name, path) = (folder.join(entry.file_name()), entry.path());
             if path.is_dir() {
                 if !OTHERS.iter().any(|other| entry.file_name() == *other) {
-                    self.take(&name, wanted)?;
+                    self.take(&name, changed, wanted)?;
                 }
-            } else {
+            } else if !changed.contains_key(&name) {
                 let text = fs::read(&path).map_err(|error| failed(&path, error))?;
                 self.put(&name, &text)?;
                 wanted.insert(self.root.join(name));
@@ -123,7 +151,7 @@ impl Copy {
     }
 
     /// The manifest of the workspace with the members that are copied.
-    fn manifest(&self) -> Result<String, ProveError> {
+    fn manifest(&self, new: &BTreeSet<&str>) -> Result<String, ProveError> {
         let path = self.original.join("Cargo.toml");
         let form = |message: String| ProveError::Form { path: path.clone(), message };
         let text = fs::read_to_string(&path).map_err(|error| failed(&path, error))?;
@@ -131,8 +159,9 @@ impl Copy {
         let members = manifest.get_mut("workspace").and_then(|workspace| workspace.get_mut("members"));
         let members =
             members.and_then(toml::Value::as_array_mut).ok_or_else(|| form("it has no members".to_owned()))?;
-        let copied = |member: &str| FOLDERS.iter().any(|folder| Path::new(member).starts_with(folder));
+        let copied = |member: &str| self.folders.iter().any(|folder| Path::new(member).starts_with(folder));
         members.retain(|member| member.as_str().is_some_and(copied));
+        members.extend(new.iter().map(|folder| toml::Value::from(*folder)));
         toml::to_string(&manifest).map_err(|error| form(error.to_string()))
     }
 }

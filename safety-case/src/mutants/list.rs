@@ -18,7 +18,7 @@ pub const PACKAGES: [(&str, &str); 5] = [
 ];
 
 /// Where the explanations stand.
-const EXPLAINED: &str = "tests/mutants.toml";
+const EXPLAINED: &str = "safety-case/analysis/mutants.toml";
 
 /// A mutant that may survive.
 #[derive(Clone, Debug, Deserialize)]

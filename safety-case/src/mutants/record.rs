@@ -1,4 +1,4 @@
-//! The record, `tests/mutants.json`.
+//! The record, `safety-case/records/mutants.json`.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::prove::ProveError;
 
 /// Where it stands.
-pub const RECORD: &str = "tests/mutants.json";
+pub const RECORD: &str = "safety-case/records/mutants.json";
 
 /// What became of a mutant.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
@@ -151,7 +151,7 @@ mod tests {
         assert_eq!(record.counts(), [1, 0, 0, 1]);
         assert_eq!(record.by_file().get("b.rs"), Some(&[0, 0, 0, 1]));
         let Ok(folder) = tempfile::tempdir() else { unreachable!("there is a temporary folder") };
-        let path = folder.path().join("tests");
+        let path = folder.path().join("safety-case/records");
         assert!(std::fs::create_dir_all(&path).is_ok() && record.save(folder.path()).is_ok());
         assert!(Record::load(folder.path()).is_ok_and(|read| read == record));
     }

@@ -10,7 +10,7 @@ use super::build::built;
 use super::list::every;
 use super::record::{Entry, Outcome, Record};
 use crate::mistakes::Shard;
-use crate::prove::{ProveError, Sources};
+use crate::prove::{ProveError, shipped};
 
 /// What a test program may take beside a multiple of what it takes without a mutant.
 const PATIENCE: Duration = Duration::from_secs(10);
@@ -109,7 +109,7 @@ fn caught(programs: &Mutex<Vec<Program>>, mutant: u32) -> Result<Option<String>,
 /// # Errors
 /// A file or a tool fails, or the sources change while it runs. What ran before is in the record.
 pub fn run(root: &Path, request: Request, say: &mut dyn FnMut(&str)) -> Result<(), ProveError> {
-    let sources = Sources::load(root)?;
+    let sources = shipped(root)?;
     let all = every(root)?;
     let target = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root.join("target"), |folder| root.join(folder));
     let built = built(root, &target.join("mutants"), &all, say)?;
@@ -117,10 +117,10 @@ pub fn run(root: &Path, request: Request, say: &mut dyn FnMut(&str)) -> Result<(
     let mut record = Record::load(root)?;
     let mut tests: Vec<String> = programs.iter().map(|program| program.name.clone()).collect();
     tests.sort();
-    if record.sources != sources.shipped || request.again {
+    if record.sources != sources || request.again {
         record = Record::default();
     }
-    record = Record { sources: sources.shipped.clone(), listed: all.len(), tests, ..record };
+    record = Record { sources: sources.clone(), listed: all.len(), tests, ..record };
     let mut queue = Vec::new();
     for (number, listed) in request.shard.part(all) {
         let name = listed.name.clone();
@@ -171,7 +171,7 @@ pub fn run(root: &Path, request: Request, say: &mut dyn FnMut(&str)) -> Result<(
             if done.is_multiple_of(50) || done == total {
                 let minutes = began.elapsed().as_secs() / 60;
                 say(&format!("{done} of {total}, {minutes} min so far"));
-                if Sources::load(root)? != sources {
+                if shipped(root)? != sources {
                     return Err(ProveError::Arguments("the sources have changed while this ran".to_owned()));
                 }
                 record.save(root)?;

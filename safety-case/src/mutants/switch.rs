@@ -255,6 +255,9 @@ impl<'a> Visit<'a> for Writer<'_> {
         match &arm.guard {
             Some((_, guard)) if !binds(guard) => {
                 let replaced = self.mutants(Genre::Guard, &of(guard));
+                if replaced.is_empty() && deleted.is_empty() {
+                    return;
+                }
                 let mut text = format!("({})", self.take(of(guard)));
                 for (number, value) in &replaced {
                     text = if value == "true" {

@@ -51,8 +51,6 @@ pub fn configuration_digest(bytes: &[u8; SEALED_BYTES]) -> String {
 pub struct Sources {
     /// Digest of everything.
     pub whole: String,
-    /// Digest of the shipped sources alone.
-    pub shipped: String,
     /// Digest of what a harness speaks of, by its name.
     harnesses: BTreeMap<String, String>,
 }
@@ -76,7 +74,7 @@ impl Sources {
         let harness = |part: &Part| part.is_harness.then(|| part.names.iter().next().cloned()).flatten();
         let digest = |name: String| (name.clone(), reached(&shipped, &parts, &name));
         let harnesses = parts.iter().filter_map(harness).map(digest).collect();
-        Ok(Self { whole: format!("{:x}", whole.finalize()), shipped, harnesses })
+        Ok(Self { whole: format!("{:x}", whole.finalize()), harnesses })
     }
 
     /// Digest of what the harness of this name speaks of; of everything, if there is none of this name.
@@ -99,7 +97,7 @@ impl Sources {
     /// The same digest for everything.
     #[cfg(test)]
     pub(crate) fn same(digest: &str) -> Self {
-        Self { whole: digest.to_owned(), shipped: digest.to_owned(), harnesses: BTreeMap::new() }
+        Self { whole: digest.to_owned(), harnesses: BTreeMap::new() }
     }
 }
 

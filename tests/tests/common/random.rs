@@ -346,7 +346,7 @@ pub fn hill() -> Bus {
 }
 
 /// How many places random drives begin at.
-pub const STARTS: usize = 13;
+pub const STARTS: usize = 14;
 
 /// Where random drives begin; made once.
 pub fn start(which: usize) -> Bus {
@@ -366,6 +366,7 @@ pub fn start(which: usize) -> Bus {
             Bus::opening_k1(),
             Bus::down(),
             hill(),
+            Bus::automated_by_epbi(kmh(30)),
         ]
     });
     made[which % STARTS].clone()

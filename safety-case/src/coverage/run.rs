@@ -1,0 +1,280 @@
+//! The run: instrument a copy, build its tests, run each, read what was recorded.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::mpsc;
+use std::time::{Duration, Instant};
+
+use serde_json::Value;
+
+use super::error::CoverageError;
+use super::instrument::instrument;
+use super::plan::{Plan, Vector};
+use crate::mistakes::Copy;
+
+/// What is copied; the tests read the corpus of the fuzzers.
+const FOLDERS: [&str; 4] = ["supervisor", "proofs", "tests", "fuzz"];
+/// What `decide` and `vet` are made of: the core, what it reads the inputs with, and its arithmetic and timers.
+const SOURCES: [&str; 4] = [
+    "supervisor/core/src",
+    "supervisor/observe/src",
+    "supervisor/terms/src/kernel.rs",
+    "supervisor/terms/src/units.rs",
+];
+/// Where functions that are `const` must stay so.
+const KEEPS_CONST: &str = "supervisor/terms";
+/// The packages of these sources.
+const PACKAGES: [&str; 3] = ["supervisor/core", "supervisor/observe", "supervisor/terms"];
+/// The packages whose tests go through the real step.
+const TESTS: [&str; 2] = ["supervisor-tests", "supervisor-proofs"];
+/// Left out of a whole run: it tries every state of three slices, minutes of it, and reaches nothing that the others do not.
+const LONG: [&str; 1] = ["explore"];
+const RECORDER: &str = include_str!("recorder.rs");
+const MANIFEST: &str = "[package]\nname = \"recorder\"\nversion = \"0.0.0\"\nedition = \"2024\"\npublish = false\n\n[lib]\npath = \"lib.rs\"\n";
+
+/// What was recorded.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Seen {
+    /// The points that were reached.
+    pub points: BTreeSet<usize>,
+    /// The vectors of each decision.
+    pub vectors: BTreeMap<usize, BTreeSet<Vector>>,
+    /// Decisions with more vectors than were recorded.
+    pub full: BTreeSet<usize>,
+}
+
+impl Seen {
+    /// Takes in what a process has recorded; the number of the first line that is none.
+    ///
+    /// # Errors
+    /// The number of the first line that is not understood.
+    pub fn add(&mut self, text: &str) -> Result<(), usize> {
+        for (number, line) in text.lines().enumerate() {
+            self.line(line).ok_or(number.saturating_add(1))?;
+        }
+        Ok(())
+    }
+
+    fn line(&mut self, line: &str) -> Option<()> {
+        let mut words = line.split(' ');
+        match words.next()? {
+            "p" => drop(self.points.insert(words.next()?.parse().ok()?)),
+            "f" => drop(self.full.insert(words.next()?.parse().ok()?)),
+            "d" => {
+                let decision = words.next()?.parse().ok()?;
+                let (evaluated, values) = (words.next()?.parse().ok()?, words.next()?.parse().ok()?);
+                let outcome = words.next()? == "1";
+                self.vectors.entry(decision).or_default().insert(Vector { evaluated, values, outcome });
+            }
+            _ => return None,
+        }
+        words.next().is_none().then_some(())
+    }
+
+    /// The vectors of a decision.
+    #[must_use]
+    pub fn of(&self, decision: usize) -> BTreeSet<Vector> {
+        self.vectors.get(&decision).cloned().unwrap_or_default()
+    }
+}
+
+/// A test program.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Target {
+    /// Its package.
+    pub package: String,
+    /// Its name.
+    pub name: String,
+    folder: PathBuf,
+    program: PathBuf,
+}
+
+/// What a run came to.
+#[derive(Clone, Debug)]
+pub struct Measured {
+    /// What there is to cover.
+    pub plan: Plan,
+    /// What was covered.
+    pub seen: Seen,
+    /// What ran.
+    pub targets: Vec<Target>,
+}
+
+/// What there is to cover, and every changed file of the copy.
+///
+/// # Errors
+/// A source cannot be read or is no Rust.
+pub fn plan(root: &Path) -> Result<(Plan, BTreeMap<PathBuf, String>), CoverageError> {
+    let (mut plan, mut changed) = (Plan::default(), BTreeMap::new());
+    for source in SOURCES {
+        for file in files(root, Path::new(source))? {
+            let path = root.join(&file);
+            let text = read(&path)?;
+            let name = file.to_string_lossy().replace('\\', "/");
+            let keeps_const = name.starts_with(KEEPS_CONST);
+            let text =
+                instrument(&name, &text, keeps_const, &mut plan).map_err(|error| CoverageError::form(&path, &error))?;
+            changed.insert(file, text);
+        }
+    }
+    for package in PACKAGES {
+        let file = Path::new(package).join("Cargo.toml");
+        let path = root.join(&file);
+        let mut manifest: toml::Table =
+            read(&path)?.parse().map_err(|error: toml::de::Error| CoverageError::form(&path, &error))?;
+        let needs = manifest.entry("dependencies").or_insert_with(|| toml::Value::Table(toml::Table::new()));
+        let recorder = toml::Table::from_iter([("path".to_owned(), toml::Value::from("../../recorder"))]);
+        if let Some(needs) = needs.as_table_mut() {
+            needs.insert("recorder".to_owned(), toml::Value::Table(recorder));
+        }
+        changed.insert(file, toml::to_string(&manifest).map_err(|error| CoverageError::form(&path, &error))?);
+    }
+    changed.insert("recorder/lib.rs".into(), RECORDER.to_owned());
+    changed.insert("recorder/Cargo.toml".into(), MANIFEST.to_owned());
+    Ok((plan, changed))
+}
+
+/// Instruments a copy in `target/coverage`, and runs there the test programs of these names, or all of them.
+///
+/// A program that has passed and was not built anew since is not run again, unless it is to run `again`.
+///
+/// # Errors
+/// The copy cannot be made or does not compile, or a test fails in it.
+pub fn run(root: &Path, names: &[String], again: bool, say: &mut dyn FnMut(&str)) -> Result<Measured, CoverageError> {
+    let folder = root.join("target/coverage");
+    let copy = Copy::of(&FOLDERS, root, &folder)?;
+    let (plan, changed) = plan(root)?;
+    copy.restore_with(&changed)?;
+    say("building the tests of the instrumented copy");
+    let targets = build(&copy, names)?;
+    let seen = folder.join("seen");
+    if again && seen.exists() {
+        fs::remove_dir_all(&seen).map_err(|error| CoverageError::file(&seen, error))?;
+    }
+    fs::create_dir_all(&seen).map_err(|error| CoverageError::file(&seen, error))?;
+    let all = side_by_side(&targets, &seen, say)?;
+    Ok(Measured { plan, seen: all, targets })
+}
+
+/// Runs the test programs, as many at a time as there are cores.
+fn side_by_side(targets: &[Target], folder: &Path, say: &mut dyn FnMut(&str)) -> Result<Seen, CoverageError> {
+    let workers = std::thread::available_parallelism().map_or(1, usize::from);
+    let (next, mut all) = (AtomicUsize::new(0), Seen::default());
+    let (send, receive) = mpsc::channel();
+    std::thread::scope(|scope| {
+        for _ in 0..workers {
+            let (send, next) = (send.clone(), &next);
+            scope.spawn(move || {
+                while let Some(target) = targets.get(next.fetch_add(1, Ordering::Relaxed)) {
+                    let path = folder.join(format!("{}-{}.txt", target.package, target.name));
+                    if send.send((target, test(target, &path), path)).is_err() {
+                        return;
+                    }
+                }
+            });
+        }
+        drop(send);
+        let mut count = 0_usize;
+        // Whoever stops receiving ends the workers.
+        for (target, took, path) in receive {
+            let took = took?;
+            if path.exists() {
+                let failed = |line: usize| CoverageError::form(&path, &format!("line {line} is not understood"));
+                all.add(&read(&path)?).map_err(failed)?;
+            }
+            count = count.saturating_add(1);
+            let took = took.map_or("   as before".to_owned(), |took| format!("{:10.1} s", took.as_secs_f64()));
+            say(&format!("{count:>3} of {}  {took}  {}", targets.len(), target.name));
+        }
+        Ok(all)
+    })
+}
+
+fn build(copy: &Copy, names: &[String]) -> Result<Vec<Target>, CoverageError> {
+    let mut command = Command::new("cargo");
+    command.current_dir(copy.root()).args(["test", "--no-run", "--message-format=json", "--target-dir"]);
+    command.arg(copy.target()).args(TESTS.iter().flat_map(|package| ["-p", package]));
+    command.args(names.iter().flat_map(|name| ["--test", name]));
+    // What is put in is not written for people; and there is much of it to build.
+    command.env("RUSTFLAGS", "--cap-lints=allow").env("CARGO_INCREMENTAL", "0");
+    command.env("CARGO_PROFILE_TEST_DEBUG", "0").env("CARGO_PROFILE_DEV_DEBUG", "0");
+    let started = |error| CoverageError::Start { program: "cargo".to_owned(), error };
+    let done = command.stdin(Stdio::null()).stderr(Stdio::piped()).output().map_err(started)?;
+    let lines = String::from_utf8_lossy(&done.stdout).into_owned();
+    let messages: Vec<Value> = lines.lines().filter_map(|line| serde_json::from_str(line).ok()).collect();
+    if !done.status.success() {
+        let errors = messages.iter().filter(|message| message.pointer("/message/level") == Some(&Value::from("error")));
+        let said: Vec<&str> =
+            errors.filter_map(|message| message.pointer("/message/rendered")?.as_str()).take(4).collect();
+        let rest = String::from_utf8_lossy(&done.stderr).into_owned();
+        return Err(CoverageError::Compile(if said.is_empty() { end(&rest) } else { said.concat() }));
+    }
+    let wanted = |target: &Target| !names.is_empty() || !LONG.contains(&target.name.as_str());
+    let mut targets: Vec<Target> = messages.iter().filter_map(target).filter(wanted).collect();
+    targets.sort();
+    Ok(targets)
+}
+
+fn target(message: &Value) -> Option<Target> {
+    if message.pointer("/profile/test") != Some(&Value::Bool(true)) {
+        return None;
+    }
+    let folder = Path::new(message.get("manifest_path")?.as_str()?).parent()?.to_owned();
+    let name = message.pointer("/target/name")?.as_str()?.to_owned();
+    let program = PathBuf::from(message.get("executable")?.as_str()?);
+    Some(Target { package: folder.file_name()?.to_str()?.to_owned(), name, folder, program })
+}
+
+/// The time that it took; `None` if it had passed before, as it is.
+fn test(target: &Target, recorded: &Path) -> Result<Option<Duration>, CoverageError> {
+    let (begun, passed) = (Instant::now(), recorded.with_extension("done"));
+    let changed = |path: &Path| fs::metadata(path).and_then(|data| data.modified()).ok();
+    if changed(&passed).zip(changed(&target.program)).is_some_and(|(passed, built)| passed > built) {
+        return Ok(None);
+    }
+    for left in [recorded, &passed] {
+        if left.exists() {
+            fs::remove_file(left).map_err(|error| CoverageError::file(left, error))?;
+        }
+    }
+    let mut command = Command::new(&target.program);
+    command.current_dir(&target.folder).env("SUPERVISE_COVERAGE", recorded).stdin(Stdio::null());
+    let started = |error| CoverageError::Start { program: target.name.clone(), error };
+    let done = command.output().map_err(started)?;
+    if !done.status.success() {
+        let text = end(&String::from_utf8_lossy(&done.stdout));
+        return Err(CoverageError::Test { test: target.name.clone(), text });
+    }
+    fs::write(&passed, "").map_err(|error| CoverageError::file(&passed, error))?;
+    Ok(Some(begun.elapsed()))
+}
+
+/// The last lines.
+fn end(text: &str) -> String {
+    let lines: Vec<&str> = text.lines().collect();
+    lines.get(lines.len().saturating_sub(40)..).unwrap_or_default().join("\n")
+}
+
+/// The Rust files of a folder, or the file, from the root.
+fn files(root: &Path, of: &Path) -> Result<Vec<PathBuf>, CoverageError> {
+    let path = root.join(of);
+    if !path.is_dir() {
+        return Ok(vec![of.to_owned()]);
+    }
+    let mut files = Vec::new();
+    for entry in fs::read_dir(&path).map_err(|error| CoverageError::file(&path, error))? {
+        let entry = entry.map_err(|error| CoverageError::file(&path, error))?;
+        if entry.path().extension().is_some_and(|extension| extension == "rs") {
+            files.push(of.join(entry.file_name()));
+        }
+    }
+    files.sort();
+    Ok(files)
+}
+
+fn read(path: &Path) -> Result<String, CoverageError> {
+    fs::read_to_string(path).map_err(|error| CoverageError::file(path, error))
+}
