@@ -169,6 +169,7 @@ pub fn built(
             let form = |error: syn::Error| ProveError::Form { path: root.join(name), message: error.to_string() };
             let switched = switched(text, mutants, &constant).map_err(form)?;
             put(&copy.join(name), switched.text.as_bytes())?;
+            unviable.extend(switched.unviable.iter().copied());
             texts.insert(name, switched);
         }
         let inside: BTreeSet<u32> = texts.values().flat_map(|switched| switched.inside.iter().copied()).collect();

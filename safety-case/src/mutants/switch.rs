@@ -10,7 +10,10 @@ use proc_macro2::Span;
 use quote::ToTokens;
 use syn::spanned::Spanned;
 use syn::visit::{self, Visit};
-use syn::{Arm, BinOp, Block, Expr, ExprBinary, ExprStruct, ExprUnary, ImplItemFn, ItemFn, ItemMod, Member, Signature};
+use syn::{
+    Arm, BinOp, Block, Expr, ExprBinary, ExprMatch, ExprStruct, ExprUnary, ImplItemFn, ItemFn, ItemMod, Member, Pat,
+    Signature,
+};
 
 /// The crate with the switch, for the copy.
 pub const CRATE: &str = include_str!("switch.in");
@@ -52,6 +55,8 @@ pub struct Switched {
     pub text: String,
     /// The numbers of those that are in it.
     pub inside: BTreeSet<u32>,
+    /// The numbers of those that leave a match without an arm for every value: they do not compile.
+    pub unviable: BTreeSet<u32>,
 }
 
 impl Switched {
@@ -84,11 +89,19 @@ pub fn switched(text: &str, mutants: &[Mutant], constant: &BTreeSet<String>) -> 
     for mutant in mutants {
         by_place.entry((mutant.genre, mutant.place.start, mutant.place.end)).or_default().push(mutant);
     }
-    let mut writer =
-        Writer { text, by_place, constant, edits: BTreeMap::new(), inside: BTreeSet::new(), fixed: Vec::new() };
+    let mut writer = Writer {
+        text,
+        by_place,
+        constant,
+        edits: BTreeMap::new(),
+        inside: BTreeSet::new(),
+        unviable: BTreeSet::new(),
+        fixed: Vec::new(),
+        whole: Vec::new(),
+    };
     writer.visit_file(&file);
     let text = writer.take(0..text.len());
-    Ok(Switched { text, inside: writer.inside })
+    Ok(Switched { text, inside: writer.inside, unviable: writer.unviable })
 }
 
 struct Writer<'a> {
@@ -98,6 +111,9 @@ struct Writer<'a> {
     /// What stands instead of these bytes; no two overlap.
     edits: BTreeMap<usize, (usize, String)>,
     inside: BTreeSet<u32>,
+    unviable: BTreeSet<u32>,
+    /// Whether the matches around have an arm for everything.
+    whole: Vec<bool>,
     /// Whether the functions around must stay as they are.
     fixed: Vec<bool>,
 }
@@ -249,9 +265,19 @@ impl<'a> Visit<'a> for Writer<'_> {
         self.wrap(of(node), &mutants, &text);
     }
 
+    fn visit_expr_match(&mut self, node: &'a ExprMatch) {
+        let takes_all = |arm: &Arm| arm.guard.is_none() && matches!(arm.pat, Pat::Wild(_) | Pat::Ident(_));
+        self.whole.push(node.arms.iter().any(takes_all));
+        visit::visit_expr_match(self, node);
+        self.whole.pop();
+    }
+
     fn visit_arm(&mut self, arm: &'a Arm) {
         visit::visit_arm(self, arm);
-        let deleted = self.mutants(Genre::Arm, &of(arm));
+        let mut deleted = self.mutants(Genre::Arm, &of(arm));
+        if !self.whole.last().copied().unwrap_or(false) {
+            self.unviable.extend(deleted.drain(..).map(|(number, _)| number));
+        }
         match &arm.guard {
             Some((_, guard)) if !binds(guard) => {
                 let replaced = self.mutants(Genre::Guard, &of(guard));
