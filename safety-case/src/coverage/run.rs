@@ -30,7 +30,7 @@ const KEEPS_CONST: &str = "supervisor/terms";
 const PACKAGES: [&str; 3] = ["supervisor/core", "supervisor/observe", "supervisor/terms"];
 /// The packages whose tests go through the real step.
 const TESTS: [&str; 2] = ["supervisor-tests", "supervisor-proofs"];
-/// Left out of a whole run: it tries every state of three slices, minutes of it, and reaches nothing that the others do not.
+/// Left out of a whole run: it tries every state of three slices, which takes many minutes with a recorder in it.
 const LONG: [&str; 1] = ["explore"];
 const RECORDER: &str = include_str!("recorder.rs");
 const MANIFEST: &str = "[package]\nname = \"recorder\"\nversion = \"0.0.0\"\nedition = \"2024\"\npublish = false\n\n[lib]\npath = \"lib.rs\"\n";
