@@ -32,7 +32,7 @@ fn command_streams_keep_every_property() {
 #[test]
 fn frames_keep_every_property() {
     let reached = replay("wire_bytes", wire_bytes);
-    assert!(reached.size() > 100, "{} modes and verdicts: the corpus has lost its reach", reached.size());
+    assert!(reached.size() > 160, "{} modes and verdicts: the corpus has lost its reach", reached.size());
 }
 
 /// SELF-2b: the independent oracle agrees in every cycle of its corpus, and the corpus reaches every mode.
