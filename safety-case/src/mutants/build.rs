@@ -114,7 +114,8 @@ struct Target {
 #[derive(Debug, Deserialize)]
 struct Message {
     level: String,
-    message: String,
+    #[serde(rename = "message")]
+    text: String,
     #[serde(default)]
     spans: Vec<Span>,
 }
@@ -138,7 +139,7 @@ fn cargo(copy: &Path, target: &Path, arguments: &[&str]) -> Result<(bool, Vec<Sa
     Ok((done.status.success(), said))
 }
 
-/// The function that the compiler misses as a constant one, in `cannot call non-const method `A::<B>::c` in ...`.
+/// The function that the compiler misses as a constant one: `c`, where it says that it cannot call the method `A::<B>::c`.
 fn missed(message: &str) -> Option<String> {
     let called = message.strip_prefix("cannot call non-const")?.split('`').nth(1)?;
     called
@@ -164,7 +165,7 @@ pub fn built(
     let (mut constant, mut unviable) = (BTreeSet::new(), BTreeSet::new());
     let mut check = vec!["check", "--release", "--keep-going", "--all-features", "-p", "supervisor-report"];
     check.extend(PACKAGES.iter().flat_map(|(package, _)| ["-p", package]));
-    let tests = ["test", "--release", "--no-run", "-p", "supervisor-tests", "-p", "supervisor-proofs"];
+    let with_tests = ["test", "--release", "--no-run", "-p", "supervisor-tests", "-p", "supervisor-proofs"];
     for round in 1..=ROUNDS {
         let mut texts: BTreeMap<&String, Switched> = BTreeMap::new();
         for (name, (text, mutants)) in &files {
@@ -178,7 +179,7 @@ pub fn built(
         let (mut compiles, mut said) = cargo(&copy, &target, &check)?;
         if compiles {
             // What calls the crates may need a constant function, too.
-            (compiles, said) = cargo(&copy, &target, &tests)?;
+            (compiles, said) = cargo(&copy, &target, &with_tests)?;
         }
         if compiles {
             say(&format!("{} of {} mutants are switched, {} do not compile", inside.len(), all.len(), unviable.len()));
@@ -190,11 +191,11 @@ pub fn built(
                 let (_, switched) = texts.iter().find(|(name, _)| span.file_name.ends_with(name.as_str()))?;
                 switched.at(span.byte_start)
             });
-            match (missed(&message.message), at) {
+            match (missed(&message.text), at) {
                 (Some(name), _) => drop(constant.insert(name)),
                 (None, Some(number)) => drop(unviable.insert(number)),
                 (None, None) if !message.spans.is_empty() => {
-                    unknown = format!("{}: {:?}", message.message, message.spans)
+                    unknown = format!("{}: {:?}", message.text, message.spans);
                 }
                 (None, None) => {}
             }

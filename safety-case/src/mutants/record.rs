@@ -85,7 +85,8 @@ impl Record {
         );
         for (index, entry) in self.mutants.iter().enumerate() {
             let comma = if index == 0 { "" } else { ",\n" };
-            text.push_str(&format!("{comma}{}", serde_json::to_string(entry).map_err(form)?));
+            text.push_str(comma);
+            text.push_str(&serde_json::to_string(entry).map_err(form)?);
         }
         text.push_str("\n]\n}\n");
         std::fs::write(&path, text).map_err(|error| ProveError::File { path, error })

@@ -179,7 +179,7 @@ impl Writer<'_> {
                 let mut text = String::new();
                 for (number, value) in &mutants {
                     let (opens, closes) = (opens(*number), closes(*number));
-                    text.push_str(&format!("{opens}if ::mutant_switch::on({number}) {{ return {value}; }}{closes} "));
+                    text = format!("{text}{opens}if ::mutant_switch::on({number}) {{ return {value}; }}{closes} ");
                     self.inside.insert(*number);
                 }
                 self.put(range, text + &body);
@@ -226,6 +226,7 @@ impl<'a> Visit<'a> for Writer<'_> {
         self.function(&function.sig, &function.block, |writer| visit::visit_impl_item_fn(writer, function));
     }
 
+    #[expect(clippy::wildcard_enum_match_arm, reason = "syn's operators may grow")]
     fn visit_expr_binary(&mut self, node: &'a ExprBinary) {
         visit::visit_expr_binary(self, node);
         let mutants = self.mutants(Genre::Binary, &of(&node.op));
@@ -245,13 +246,9 @@ impl<'a> Visit<'a> for Writer<'_> {
             BinOp::Lt(_) | BinOp::Gt(_) | BinOp::Le(_) | BinOp::Ge(_) => {
                 format!("::mutant_switch::compare(&({left}), &({right}), \"{operator}\", &[{}])", list())
             }
-            _ => {
-                let arms: String = mutants
-                    .iter()
-                    .map(|(number, with)| format!("if ::mutant_switch::on({number}) {{ {left} {with} {right} }} else "))
-                    .collect();
-                format!("({arms} {{ {left} {operator} {right} }})")
-            }
+            _ => mutants.iter().rev().fold(format!("({left} {operator} {right})"), |rest, (number, with)| {
+                format!("(if ::mutant_switch::on({number}) {{ {left} {with} {right} }} else {{ {rest} }})")
+            }),
         };
         self.wrap(of(node), &mutants, &text);
     }
@@ -337,7 +334,7 @@ mod tests {
         let length = match genre {
             Genre::Binary => what.trim_end().len() - skip,
             Genre::Unary => 1,
-            _ => what.len(),
+            Genre::Body | Genre::Arm | Genre::Guard | Genre::Field => what.len(),
         };
         Mutant { number, genre, place: start + skip..start + skip + length, replacement: replacement.to_owned() }
     }
@@ -392,7 +389,7 @@ mod tests {
         for part in [
             "(!::mutant_switch::on(2) && (::mutant_switch::on(1) || (a != 2)))",
             "3 if !::mutant_switch::on(3)",
-            "(if ::mutant_switch::on(4) { a * 1 } else  { a + 1 })",
+            "(if ::mutant_switch::on(4) { a * 1 } else { (a + 1) })",
         ] {
             assert!(new.contains(part), "{part}\n{new}");
         }
