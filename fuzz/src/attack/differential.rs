@@ -26,7 +26,7 @@ pub fn differential(bytes: &[u8], reached: &mut Reached) {
         let (status, verdicts) = &cycle.said;
         reached.look_at(status, verdicts, cycle.outputs.mode);
     }
-    if let Some((at, id, why)) = judge(&drive.trace, from, &all()) {
-        panic!("beginning {which}, cycle {at}\n{}\n{id}: {why}", told(&drive.trace, from, at));
-    }
+    let broken = judge(&drive.trace, from, &all());
+    let shown = broken.map(|(at, id, why)| format!("cycle {at}\n{}\n{id}: {why}", told(&drive.trace, from, at)));
+    assert!(shown.is_none(), "beginning {which}, {}", shown.unwrap_or_default());
 }
