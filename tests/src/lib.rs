@@ -4,7 +4,7 @@
 //! - [`driver`], [`road`]: what hands and feet do, what stands ahead;
 //! - [`controller`]: a correct main controller, written from the sources S1 to S3;
 //! - [`misdeed`]: what a misbehaving one does, when, and what must come of it;
-//! - [`bench`]: the loop, cycle by cycle; [`drive`]: scenario in, record out; [`link`]: the CAN frames between, [`candump`]: as a log;
+//! - [`mod@bench`]: the loop, cycle by cycle; [`drive`]: scenario in, record out; [`link`]: the CAN frames between, [`candump`]: as a log;
 //! - [`judge`]: interventions, refused misdeeds, whether the bus stayed safe;
 //! - [`s1`]: the published approach of S1 beside ours;
 //! - [`inject`]: faults at random times in correct drives, and what comes of them;
