@@ -1,13 +1,17 @@
 //! The command line.
 
+mod coverage;
 mod inject;
+mod mutants;
 
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use supervisor::{Record, ResetCause};
 
+pub use coverage::Coverage;
 pub use inject::Inject;
+pub use mutants::Mutants;
 
 use crate::prove::Solver;
 
@@ -72,23 +76,6 @@ never end the replay.
 The JSON document (--json) is written while the replay goes on, one event per line; its schema is described in \
 safety-case/src/document.rs.";
 
-const MUTANTS: &str = "\
-Tests the tests: runs them once for every mutant that cargo-mutants lists of the shipped crates (an operator, a guard, a body,
-a field changed). All mutants are built once, each behind a switch, into target/mutants; then the test programs of the packages
-supervisor-tests and supervisor-proofs run for each mutant, those first that catch most in the least time, until one fails.
-Nothing but tests counts here; what the proofs catch is `supervise mistakes`.
-
-A mutant that no test notices survived; safety-case/analysis/mutants.toml may explain why it changes nothing. The record is safety-case/records/mutants.json;
-it is stale as soon as a token of the shipped sources changed.
-
-Examples:
-  supervise mutants                     all of them; goes on where a run was broken off
-  supervise mutants --within 30         no further one after half an hour
-  supervise mutants --shard 1/4         one part of four, on a machine of its own
-  supervise mutants --check             what the record shows
-
-Exit codes: 0 every mutant is caught or its survival explained; 1 one is not, or was not run, or the record is stale;
-2 something cannot be read or built; 4 cargo mutants is not here, nothing was run.";
 const TRACE: &str = "\
 Every requirement of safety-case/analysis has one id, SEAT-5a, and SEAT-5 is the group of its demands. The sources carry \
 these ids, and this command makes the table from them: requirement, code, limits, proofs, tests. Nothing is kept by hand.
@@ -184,7 +171,7 @@ pub enum Command {
     /// (or, for --drawn, cargo mutants) is not installed: nothing was run.
     Mistakes(Mistakes),
     /// Test the tests: run them once for every mutant of the shipped crates
-    #[command(long_about = MUTANTS)]
+    #[command(long_about = mutants::ABOUT)]
     Mutants(Mutants),
     /// Trace every requirement to its code, limits, proofs and tests, by the ids in the sources
     #[command(long_about = TRACE)]
@@ -198,10 +185,7 @@ pub enum Command {
     #[command(long_about = inject::ABOUT)]
     Inject(Inject),
     /// Measure which statements, branches and conditions of the decision the tests reach
-    ///
-    /// Instruments a copy of the sources, runs the tests of the step in it, and reports statement, branch and MC/DC
-    /// coverage (by masking) of each file. A whole run writes safety-case/records/coverage.json. Exits with 1 if
-    /// something is open that safety-case/analysis/coverage-open.toml does not list, or is listed there and covered.
+    #[command(long_about = coverage::ABOUT)]
     Coverage(Coverage),
 }
 
@@ -435,26 +419,6 @@ pub struct Mistakes {
     pub write: Option<PathBuf>,
 }
 
-/// Arguments of `mutants`.
-#[derive(Debug, Args)]
-pub struct Mutants {
-    /// Only the K-th of N parts
-    #[arg(long, value_name = "K/N", value_parser = part)]
-    pub shard: Option<(usize, usize)>,
-    /// How many at a time; without it, one for each core
-    #[arg(long, value_name = "COUNT")]
-    pub jobs: Option<usize>,
-    /// Begin no further mutant after so many minutes; the next run goes on
-    #[arg(long, value_name = "MINUTES")]
-    pub within: Option<u64>,
-    /// Run again what the record already has for the present sources
-    #[arg(long)]
-    pub again: bool,
-    /// Run nothing: say what the record does not show on the present sources
-    #[arg(long, conflicts_with_all = ["shard", "within", "again"])]
-    pub check: bool,
-}
-
 /// Arguments of `cost`.
 #[derive(Debug, Args)]
 pub struct Cost {
@@ -467,26 +431,6 @@ pub struct Cost {
     /// One more argument for cargo when it builds for the target
     #[arg(long, value_name = "ARGUMENT", allow_hyphen_values = true)]
     pub cargo_arg: Vec<String>,
-}
-
-/// Arguments of `coverage`.
-#[derive(Debug, Args)]
-pub struct Coverage {
-    /// Write the figures, every decision and the vectors seen of it as JSON
-    #[arg(long, value_name = "FILE")]
-    pub json: Option<PathBuf>,
-    /// Write the sources with what is open in them as one page that works offline
-    #[arg(long, value_name = "FILE")]
-    pub html: Option<PathBuf>,
-    /// Run nothing: show the record, and whether it is stale or does not agree with the list
-    #[arg(long, conflicts_with_all = ["json", "html", "test"])]
-    pub check: bool,
-    /// Only these test programs; writes no record
-    #[arg(long, value_name = "NAME", num_args = 1..)]
-    pub test: Vec<String>,
-    /// Run again what has passed in the same copy before
-    #[arg(long, conflicts_with = "check")]
-    pub again: bool,
 }
 
 #[cfg(test)]

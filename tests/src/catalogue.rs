@@ -4,21 +4,14 @@
 use supervisor::{Channel, EpbSwitch, Gear, Key, Reason};
 
 use crate::drive::Scenario;
-use crate::driver::{Act, Script};
+use crate::driver::{Act, Script, after_start};
 use crate::misdeed::{Deed, Misdeed};
 use crate::plant::Parameters;
 use crate::road::Obstacle;
 
 /// S1 §3.2: where the driver meets the standing car. Key on, high voltage up, off to 40 km/h, cruise control; the
 /// driver looks away, presses the accelerator in the first fright, then brakes.
-const APPROACH: Script<'static> = &[
-    (5000, Act::Key(Key::Start)),
-    (5500, Act::Key(Key::On)),
-    (6500, Act::Brake(0.4)),
-    (7000, Act::Selector(Gear::Drive)),
-    (8000, Act::EpbSwitch(EpbSwitch::Release)),
-    (9500, Act::EpbSwitch(EpbSwitch::Idle)),
-    (10_000, Act::Brake(0.0)),
+const APPROACH: Script<'static> = after_start![
     (10_500, Act::Hold(40.0)),
     (46_000, Act::CruiseSwitch(true)),
     (47_000, Act::Set(true)),
@@ -36,14 +29,7 @@ const HANDS_OFF: Script<'static> = {
 };
 
 /// S3: the driver gets up at 40 km/h, is away for more than ten minutes, comes back and drives on.
-const SEAT: Script<'static> = &[
-    (5000, Act::Key(Key::Start)),
-    (5500, Act::Key(Key::On)),
-    (6500, Act::Brake(0.4)),
-    (7000, Act::Selector(Gear::Drive)),
-    (8000, Act::EpbSwitch(EpbSwitch::Release)),
-    (9500, Act::EpbSwitch(EpbSwitch::Idle)),
-    (10_000, Act::Brake(0.0)),
+const SEAT: Script<'static> = after_start![
     (10_500, Act::Hold(40.0)),
     (32_200, Act::Accelerator(0.0)),
     (32_500, Act::Sit(false)),
@@ -67,14 +53,7 @@ const SEAT: Script<'static> = &[
 ];
 
 /// The driver lets the accelerator go at 30 km/h, brakes, drives on, and gets up at 40 km/h.
-const FAULTY: Script<'static> = &[
-    (5000, Act::Key(Key::Start)),
-    (5500, Act::Key(Key::On)),
-    (6500, Act::Brake(0.4)),
-    (7000, Act::Selector(Gear::Drive)),
-    (8000, Act::EpbSwitch(EpbSwitch::Release)),
-    (9500, Act::EpbSwitch(EpbSwitch::Idle)),
-    (10_000, Act::Brake(0.0)),
+const FAULTY: Script<'static> = after_start![
     (10_500, Act::Hold(30.0)),
     (26_000, Act::Accelerator(0.0)),
     (30_000, Act::Hold(40.0)),

@@ -30,6 +30,24 @@ pub enum Act {
 /// An act and when it happens, in ms of the drive.
 pub type Script<'a> = &'a [(u32, Act)];
 
+/// Ten seconds from key-on to a bus that is ready to go, and what the driver does then.
+macro_rules! after_start {
+    ($($act:expr,)*) => {
+        &[
+            (5000, $crate::driver::Act::Key(supervisor::Key::Start)),
+            (5500, $crate::driver::Act::Key(supervisor::Key::On)),
+            (6500, $crate::driver::Act::Brake(0.4)),
+            (7000, $crate::driver::Act::Selector(supervisor::Gear::Drive)),
+            (8000, $crate::driver::Act::EpbSwitch(supervisor::EpbSwitch::Release)),
+            (9500, $crate::driver::Act::EpbSwitch(supervisor::EpbSwitch::Idle)),
+            (10_000, $crate::driver::Act::Brake(0.0)),
+            $($act,)*
+        ]
+    };
+}
+
+pub(crate) use after_start;
+
 /// How fast a foot moves a pedal, in shares of its travel per millisecond (own: 200 %/s).
 const FOOT_PER_MS: f64 = 0.002;
 /// Accelerator that holds a speed: so much per m/s of error (own) ...

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::json;
 
-use super::{FINDINGS, NOT_RUN, Outcome, print};
+use super::{FINDINGS, NOT_RUN, Outcome, print, root};
 use crate::cli::Cost;
 use crate::cost::{
     CostError, Difference, Row, Size, Tools, bar, block, differences, has, main_rows, markdown, measure, replaced,
@@ -20,7 +20,7 @@ pub(super) fn run(arguments: &Cost) -> Outcome {
         print("NOT RUN: valgrind is missing, so no instruction was counted\n")?;
         return Ok(NOT_RUN);
     }
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().ok_or("the workspace has no folder")?;
+    let root = root()?;
     let tools = Tools::new(root, &[]);
     let measured = measure(&tools)?;
     let rows = rows(&measured.calls);

@@ -1,27 +1,17 @@
 //! `supervise coverage`.
 
-use std::fs;
 use std::path::Path;
 
-use super::{FINDINGS, Outcome, print};
+use super::{FINDINGS, Outcome, print, root, telling, write};
 use crate::cli::Coverage;
 use crate::coverage::{Accepted, Figures, Finding, Record, compare, document, page, run as measure};
 
 pub(super) fn run(arguments: &Coverage) -> Outcome {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().ok_or("the workspace has no folder")?;
+    let root = root()?;
     if arguments.check {
         return check(root);
     }
-    let mut failure = None;
-    let mut say = |line: &str| {
-        if let Err(error) = print(format_args!("{line}\n")) {
-            failure = Some(error);
-        }
-    };
-    let measured = measure(root, &arguments.test, arguments.again, &mut say)?;
-    if let Some(error) = failure {
-        return Err(error.into());
-    }
+    let measured = telling(|say| measure(root, &arguments.test, arguments.again, say))?;
     let record = Record::of(root, &measured)?;
     if let Some(path) = &arguments.json {
         write(path, &format!("{:#}\n", document(&record, &measured)?))?;
@@ -78,9 +68,4 @@ fn table(record: &Record) -> String {
     text.push_str(&row("together", &record.sum));
     let left_out = record.left_out.iter().map(|what| format!("not instrumented: {what}\n"));
     text + &left_out.collect::<String>() + &format!("{} open\n", record.open.len())
-}
-
-fn write(path: &Path, text: &str) -> Result<(), String> {
-    let folder = path.parent().map_or(Ok(()), fs::create_dir_all);
-    folder.and_then(|()| fs::write(path, text)).map_err(|error| format!("{}: {error}", path.display()))
 }

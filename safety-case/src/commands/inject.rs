@@ -1,9 +1,6 @@
 //! `supervise inject`.
 
-use std::fs;
-use std::path::Path;
-
-use super::{FINDINGS, Outcome, print};
+use super::{FINDINGS, Outcome, print, root, write};
 use crate::cli::Inject;
 use crate::inject::judge::failed;
 use crate::inject::page::page;
@@ -12,7 +9,7 @@ use crate::inject::table::{summary, table};
 use crate::inject::{List, Matrix, Request, Sources, campaign, rows};
 
 pub(super) fn run(arguments: &Inject) -> Outcome {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().ok_or("the workspace has no folder")?;
+    let root = root()?;
     let list = List::load(&root.join("safety-case/analysis"))?;
     let sources = Sources::load(root)?;
     let matrix = if arguments.check {
@@ -49,9 +46,4 @@ fn request(arguments: &Inject) -> Request {
         scenarios: arguments.scenario.clone(),
         jobs: arguments.jobs,
     }
-}
-
-fn write(path: &Path, text: &str) -> Result<(), String> {
-    let folder = path.parent().map_or(Ok(()), fs::create_dir_all);
-    folder.and_then(|()| fs::write(path, text)).map_err(|error| format!("{}: {error}", path.display()))
 }

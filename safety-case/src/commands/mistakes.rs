@@ -4,14 +4,15 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-use super::{FINDINGS, NOT_RUN, Outcome, print};
+use super::{FINDINGS, NOT_RUN, Outcome, print, root, telling};
 use crate::cli::Mistakes;
+use crate::error::ToolError;
 use crate::mistakes;
 use crate::mistakes::{Kani, List, Record, Request, Shard, block, check, replaced, run as plant};
 use crate::prove::{self, Place, Present, RECORD, Sources, State};
 
 pub(super) fn run(arguments: &Mistakes) -> Outcome {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().ok_or("the workspace has no folder")?;
+    let root = root()?;
     let runs = !arguments.check && arguments.write.is_none();
     if runs && let Some(missing) = missing(arguments) {
         print(format_args!("NOT RUN HERE: {missing}. No mistake was planted; what follows is the record.\n"))?;
@@ -27,16 +28,7 @@ pub(super) fn run(arguments: &Mistakes) -> Outcome {
             jobs: arguments.jobs.max(1),
             again: arguments.again,
         };
-        let mut failure = None;
-        let mut say = |line: &str| {
-            if let Err(error) = print(format_args!("{line}\n")) {
-                failure = Some(error);
-            }
-        };
-        plant(root, &request, &Kani, &mut say)?;
-        if let Some(error) = failure {
-            return Err(error.into());
-        }
+        telling(|say| plant(root, &request, &Kani, say))?;
     }
     show(root, arguments)
 }
@@ -72,7 +64,7 @@ fn show(root: &Path, arguments: &Mistakes) -> Outcome {
 }
 
 /// The harnesses that are proved on the sources without any mistake.
-fn proved(root: &Path, sources: &Sources) -> Result<BTreeSet<String>, prove::ProveError> {
+fn proved(root: &Path, sources: &Sources) -> Result<BTreeSet<String>, ToolError> {
     let (harnesses, record) = (prove::List::load(root)?, prove::Record::load(&root.join(RECORD))?);
     let present = Present { sources: sources.clone(), configuration: prove::default_configuration()? };
     let place = Place::committed(root);

@@ -14,7 +14,9 @@ mod replay;
 mod trace;
 
 use std::fmt::Display;
+use std::fs;
 use std::io::{self, Write};
+use std::path::Path;
 use std::process::ExitCode;
 
 use crate::cli::{Cli, Command};
@@ -61,6 +63,30 @@ pub fn run(cli: &Cli) -> ExitCode {
 
 fn is_broken_pipe(error: &(dyn std::error::Error + 'static)) -> bool {
     error.downcast_ref::<io::Error>().is_some_and(|error| error.kind() == io::ErrorKind::BrokenPipe)
+}
+
+/// The root of the workspace.
+fn root() -> Result<&'static Path, &'static str> {
+    Path::new(env!("CARGO_MANIFEST_DIR")).parent().ok_or("the workspace has no folder")
+}
+
+/// Writes a file, and its folder if there is none.
+fn write(path: &Path, text: &str) -> Result<(), String> {
+    let folder = path.parent().map_or(Ok(()), fs::create_dir_all);
+    folder.and_then(|()| fs::write(path, text)).map_err(|error| format!("{}: {error}", path.display()))
+}
+
+/// Does something long that tells how far it is, and prints what it tells, line by line.
+fn telling<T, E: std::error::Error + 'static>(
+    work: impl FnOnce(&mut dyn FnMut(&str)) -> Result<T, E>,
+) -> Result<T, Box<dyn std::error::Error>> {
+    let mut failure = None;
+    let done = work(&mut |line| {
+        if let Err(error) = print(format_args!("{line}\n")) {
+            failure = Some(error);
+        }
+    })?;
+    failure.map_or(Ok(done), |error| Err(error.into()))
 }
 
 /// Prints to the standard output.

@@ -3,14 +3,14 @@
 use std::path::Path;
 use std::time::Duration;
 
-use super::{FINDINGS, NOT_RUN, Outcome, print};
+use super::{FINDINGS, NOT_RUN, Outcome, print, root, telling};
 use crate::cli::Mutants;
 use crate::mistakes::{Shard, available};
 use crate::mutants::{Explained, Record, Request, run as mutate};
 use crate::prove::shipped;
 
 pub(super) fn run(arguments: &Mutants) -> Outcome {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().ok_or("the workspace has no folder")?;
+    let root = root()?;
     if !arguments.check && !available() {
         print(
             "NOT RUN HERE: cargo mutants is not installed (cargo install --locked cargo-mutants). What follows is the record.\n",
@@ -26,15 +26,7 @@ pub(super) fn run(arguments: &Mutants) -> Outcome {
             again: arguments.again,
             within: arguments.within.map(|minutes| Duration::from_secs(minutes.saturating_mul(60))),
         };
-        let mut failure = None;
-        mutate(root, request, &mut |line| {
-            if let Err(error) = print(format_args!("{line}\n")) {
-                failure = Some(error);
-            }
-        })?;
-        if let Some(error) = failure {
-            return Err(error.into());
-        }
+        telling(|say| mutate(root, request, say))?;
     }
     show(root)
 }

@@ -1,9 +1,6 @@
 //! `supervise trace`.
 
-use std::fs;
-use std::path::Path;
-
-use super::{FINDINGS, Outcome, print};
+use super::{FINDINGS, Outcome, print, root, write};
 use crate::cli::TraceArgs;
 use crate::trace::{Trace, json, page, rows, summary, trace};
 
@@ -12,9 +9,11 @@ use crate::trace::{Trace, json, page, rows, summary, trace};
 /// # Errors
 /// If the sources or the analysis cannot be read, an id is not known, or a file cannot be written.
 pub fn run(arguments: &TraceArgs) -> Outcome {
-    let ours = || Path::new(env!("CARGO_MANIFEST_DIR")).parent().map(Path::to_owned);
-    let root = arguments.root.clone().or_else(ours).ok_or("the workspace has no folder")?;
-    let trace = trace(&root)?;
+    let root = match &arguments.root {
+        Some(root) => root.as_path(),
+        None => root()?,
+    };
+    let trace = trace(root)?;
     if let Some(path) = &arguments.json {
         write(path, &format!("{:#}\n", json(&trace)))?;
     }
@@ -39,9 +38,4 @@ fn text(trace: &Trace, arguments: &TraceArgs) -> Result<String, String> {
         text.push_str(&shown);
     }
     Ok(text)
-}
-
-fn write(path: &Path, text: &str) -> Result<(), String> {
-    let folder = path.parent().map_or(Ok(()), fs::create_dir_all);
-    folder.and_then(|()| fs::write(path, text)).map_err(|error| format!("{}: {error}", path.display()))
 }

@@ -11,7 +11,6 @@
 //! Where to look: what is put in, `instrument.rs`; what records, `recorder.rs`; MC/DC, `plan.rs`; the run, `run.rs`; the
 //! figures, `figures.rs`; what may stay open, `open.rs`.
 
-mod error;
 mod figures;
 mod form;
 mod insert;
@@ -26,11 +25,10 @@ mod run;
 #[cfg(test)]
 mod tests;
 
-pub use error::CoverageError;
 pub use figures::{Count, Figures, Open, figures};
 pub use instrument::instrument;
 pub use open::{Accepted, Finding, LIST, compare};
 pub use page::page;
 pub use plan::{Decision, Kind, Place, Plan, Point, Tree, Vector};
 pub use record::{RECORD, Record, document};
-pub use run::{Measured, Seen, Target, plan, run};
+pub use run::{Measured, Seen, plan, run};

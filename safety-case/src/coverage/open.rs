@@ -1,13 +1,12 @@
 //! What may stay open, each with its reason; and what follows from it for a run.
 
-use std::fs;
 use std::path::Path;
 
 use serde::Deserialize;
 
-use super::error::CoverageError;
 use super::figures::Open;
 use super::plan::Kind;
+use crate::error::{ToolError, form, read};
 
 /// The list.
 pub const LIST: &str = "safety-case/analysis/coverage-open.toml";
@@ -42,12 +41,11 @@ impl Accepted {
     ///
     /// # Errors
     /// It cannot be read, or an entry has no reason.
-    pub fn load(root: &Path) -> Result<Vec<Self>, CoverageError> {
+    pub fn load(root: &Path) -> Result<Vec<Self>, ToolError> {
         let path = root.join(LIST);
-        let text = fs::read_to_string(&path).map_err(|error| CoverageError::file(&path, error))?;
-        let list: List = toml::from_str(&text).map_err(|error| CoverageError::form(&path, &error))?;
+        let list: List = toml::from_str(&read(&path)?).map_err(|error| form(&path, &error))?;
         match list.open.iter().find(|entry| entry.reason.trim().is_empty()) {
-            Some(entry) => Err(CoverageError::form(&path, &format!("{} has no reason", entry.text))),
+            Some(entry) => Err(form(&path, &format!("{} has no reason", entry.text))),
             None => Ok(list.open),
         }
     }

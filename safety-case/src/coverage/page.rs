@@ -4,17 +4,15 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
-use minijinja::value::Serde;
-use minijinja::{AutoEscape, Environment};
 use serde_json::{Value, json};
 
 use super::figures::{Count, Figures, Open};
 use super::open::Accepted;
 use super::record::Record;
 use super::run::Measured;
+use crate::template::render;
 
 const PAGE: &str = include_str!("../../templates/coverage.html");
-const STYLE: &str = include_str!("../../templates/style.css");
 
 /// The page as one HTML file.
 ///
@@ -42,12 +40,9 @@ pub fn page(
         record.files.iter().map(|(name, figures)| file(root, name, figures, record, measured, accepted)).collect();
     let programs: usize = record.ran.values().map(Vec::len).sum();
     let context = json!({
-        "version": env!("CARGO_PKG_VERSION"), "style": STYLE, "cards": cards, "files": files, "programs": programs,
+        "cards": cards, "files": files, "programs": programs,
     });
-    let mut environment = Environment::new();
-    environment.set_auto_escape_callback(|_| AutoEscape::Html);
-    environment.add_template("coverage", PAGE)?;
-    environment.get_template("coverage")?.render(Serde(context))
+    render(PAGE, context)
 }
 
 fn file(

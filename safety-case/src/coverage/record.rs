@@ -8,9 +8,9 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 
-use super::error::CoverageError;
 use super::figures::{Figures, Open, figures};
 use super::run::Measured;
+use crate::error::{ToolError, file, form, read, write};
 use crate::prove::shipped;
 
 /// The record.
@@ -45,7 +45,7 @@ impl Record {
     ///
     /// # Errors
     /// The sources or tests cannot be read.
-    pub fn of(root: &Path, measured: &Measured) -> Result<Self, CoverageError> {
+    pub fn of(root: &Path, measured: &Measured) -> Result<Self, ToolError> {
         let (rows, open) = figures(&measured.plan, &measured.seen);
         let mut ran: BTreeMap<String, Vec<String>> = BTreeMap::new();
         for target in &measured.targets {
@@ -72,40 +72,38 @@ impl Record {
     ///
     /// # Errors
     /// It is not there or not one.
-    pub fn load(root: &Path) -> Result<Self, CoverageError> {
+    pub fn load(root: &Path) -> Result<Self, ToolError> {
         let path = root.join(RECORD);
-        let text = fs::read_to_string(&path).map_err(|error| CoverageError::file(&path, error))?;
-        serde_json::from_str(&text).map_err(|error| CoverageError::form(&path, &error))
+        serde_json::from_str(&read(&path)?).map_err(|error| form(&path, &error))
     }
 
     /// Writes it.
     ///
     /// # Errors
     /// It cannot be written.
-    pub fn save(&self, root: &Path) -> Result<(), CoverageError> {
+    pub fn save(&self, root: &Path) -> Result<(), ToolError> {
         let path = root.join(RECORD);
-        let text = serde_json::to_string_pretty(self).map_err(|error| CoverageError::form(&path, &error))?;
-        let folder = path.parent().map_or(Ok(()), fs::create_dir_all);
-        folder.and_then(|()| fs::write(&path, text + "\n")).map_err(|error| CoverageError::file(&path, error))
+        let text = serde_json::to_string_pretty(self).map_err(|error| form(&path, &error))?;
+        write(&path, (text + "\n").as_bytes())
     }
 
     /// Whether the shipped sources, and the tests, are still those that were measured.
     ///
     /// # Errors
     /// The sources or tests cannot be read.
-    pub fn is_current(&self, root: &Path) -> Result<(bool, bool), CoverageError> {
+    pub fn is_current(&self, root: &Path) -> Result<(bool, bool), ToolError> {
         Ok((self.sources == shipped(root)?, self.tests == tests(root)?))
     }
 }
 
 /// Digest of the tests' files, as they are.
-fn tests(root: &Path) -> Result<String, CoverageError> {
+fn tests(root: &Path) -> Result<String, ToolError> {
     let mut digest = Sha256::new();
     for folder in TESTS {
         let walk = walkdir::WalkDir::new(root.join(folder)).sort_by_file_name();
         for entry in walk.into_iter().filter_map(Result::ok).filter(|entry| entry.file_type().is_file()) {
             let name = entry.path().strip_prefix(root).unwrap_or(entry.path()).to_string_lossy().replace('\\', "/");
-            let text = fs::read(entry.path()).map_err(|error| CoverageError::file(entry.path(), error))?;
+            let text = fs::read(entry.path()).map_err(|error| file(entry.path(), error))?;
             digest.update(format!("{name}\0{}\0", text.len()));
             digest.update(text);
         }

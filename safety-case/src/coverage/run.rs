@@ -3,20 +3,15 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc;
 use std::time::{Duration, Instant};
 
-use serde_json::Value;
-
-use super::error::CoverageError;
 use super::instrument::instrument;
 use super::plan::{Plan, Vector};
-use crate::mistakes::Copy;
+use crate::copy::{Copy, Program, WITH_TESTS, cargo, errors, programs, with_dependency};
+use crate::error::{ToolError, file, form, read};
 
-/// What is copied; the tests read the corpus of the fuzzers.
-const FOLDERS: [&str; 4] = ["supervisor", "proofs", "tests", "fuzz"];
 /// What `decide` and `vet` are made of: the core, what it reads the inputs with, and its arithmetic and timers.
 const SOURCES: [&str; 4] = [
     "supervisor/core/src",
@@ -81,17 +76,6 @@ impl Seen {
     }
 }
 
-/// A test program.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Target {
-    /// Its package.
-    pub package: String,
-    /// Its name.
-    pub name: String,
-    folder: PathBuf,
-    program: PathBuf,
-}
-
 /// What a run came to.
 #[derive(Clone, Debug)]
 pub struct Measured {
@@ -100,14 +84,14 @@ pub struct Measured {
     /// What was covered.
     pub seen: Seen,
     /// What ran.
-    pub targets: Vec<Target>,
+    pub targets: Vec<Program>,
 }
 
 /// What there is to cover, and every changed file of the copy.
 ///
 /// # Errors
 /// A source cannot be read or is no Rust.
-pub fn plan(root: &Path) -> Result<(Plan, BTreeMap<PathBuf, String>), CoverageError> {
+pub fn plan(root: &Path) -> Result<(Plan, BTreeMap<PathBuf, String>), ToolError> {
     let (mut plan, mut changed) = (Plan::default(), BTreeMap::new());
     for source in SOURCES {
         for file in files(root, Path::new(source))? {
@@ -115,22 +99,13 @@ pub fn plan(root: &Path) -> Result<(Plan, BTreeMap<PathBuf, String>), CoverageEr
             let text = read(&path)?;
             let name = file.to_string_lossy().replace('\\', "/");
             let keeps_const = name.starts_with(KEEPS_CONST);
-            let text =
-                instrument(&name, &text, keeps_const, &mut plan).map_err(|error| CoverageError::form(&path, &error))?;
+            let text = instrument(&name, &text, keeps_const, &mut plan).map_err(|error| form(&path, &error))?;
             changed.insert(file, text);
         }
     }
     for package in PACKAGES {
-        let file = Path::new(package).join("Cargo.toml");
-        let path = root.join(&file);
-        let mut manifest: toml::Table =
-            read(&path)?.parse().map_err(|error: toml::de::Error| CoverageError::form(&path, &error))?;
-        let needs = manifest.entry("dependencies").or_insert_with(|| toml::Value::Table(toml::Table::new()));
-        let recorder = toml::Table::from_iter([("path".to_owned(), toml::Value::from("../../recorder"))]);
-        if let Some(needs) = needs.as_table_mut() {
-            needs.insert("recorder".to_owned(), toml::Value::Table(recorder));
-        }
-        changed.insert(file, toml::to_string(&manifest).map_err(|error| CoverageError::form(&path, &error))?);
+        let (file, manifest) = with_dependency(root, package, "recorder")?;
+        changed.insert(file, manifest);
     }
     changed.insert("recorder/lib.rs".into(), RECORDER.to_owned());
     changed.insert("recorder/Cargo.toml".into(), MANIFEST.to_owned());
@@ -143,24 +118,24 @@ pub fn plan(root: &Path) -> Result<(Plan, BTreeMap<PathBuf, String>), CoverageEr
 ///
 /// # Errors
 /// The copy cannot be made or does not compile, or a test fails in it.
-pub fn run(root: &Path, names: &[String], again: bool, say: &mut dyn FnMut(&str)) -> Result<Measured, CoverageError> {
+pub fn run(root: &Path, names: &[String], again: bool, say: &mut dyn FnMut(&str)) -> Result<Measured, ToolError> {
     let folder = root.join("target/coverage");
-    let copy = Copy::of(&FOLDERS, root, &folder)?;
+    let copy = Copy::of(&WITH_TESTS, root, &folder)?;
     let (plan, changed) = plan(root)?;
     copy.restore_with(&changed)?;
     say("building the tests of the instrumented copy");
     let targets = build(&copy, names)?;
     let seen = folder.join("seen");
     if again && seen.exists() {
-        fs::remove_dir_all(&seen).map_err(|error| CoverageError::file(&seen, error))?;
+        fs::remove_dir_all(&seen).map_err(|error| file(&seen, error))?;
     }
-    fs::create_dir_all(&seen).map_err(|error| CoverageError::file(&seen, error))?;
+    fs::create_dir_all(&seen).map_err(|error| file(&seen, error))?;
     let all = side_by_side(&targets, &seen, say)?;
     Ok(Measured { plan, seen: all, targets })
 }
 
 /// Runs the test programs, as many at a time as there are cores.
-fn side_by_side(targets: &[Target], folder: &Path, say: &mut dyn FnMut(&str)) -> Result<Seen, CoverageError> {
+fn side_by_side(targets: &[Program], folder: &Path, say: &mut dyn FnMut(&str)) -> Result<Seen, ToolError> {
     let workers = std::thread::available_parallelism().map_or(1, usize::from);
     let (next, mut all) = (AtomicUsize::new(0), Seen::default());
     let (send, receive) = mpsc::channel();
@@ -182,7 +157,7 @@ fn side_by_side(targets: &[Target], folder: &Path, say: &mut dyn FnMut(&str)) ->
         for (target, took, path) in receive {
             let took = took?;
             if path.exists() {
-                let failed = |line: usize| CoverageError::form(&path, &format!("line {line} is not understood"));
+                let failed = |line: usize| form(&path, &format!("line {line} is not understood"));
                 all.add(&read(&path)?).map_err(failed)?;
             }
             count = count.saturating_add(1);
@@ -193,62 +168,39 @@ fn side_by_side(targets: &[Target], folder: &Path, say: &mut dyn FnMut(&str)) ->
     })
 }
 
-fn build(copy: &Copy, names: &[String]) -> Result<Vec<Target>, CoverageError> {
-    let mut command = Command::new("cargo");
-    command.current_dir(copy.root()).args(["test", "--no-run", "--message-format=json", "--target-dir"]);
-    command.arg(copy.target()).args(TESTS.iter().flat_map(|package| ["-p", package]));
-    command.args(names.iter().flat_map(|name| ["--test", name]));
-    // What is put in is not written for people; and there is much of it to build.
-    command.env("RUSTFLAGS", "--cap-lints=allow").env("CARGO_INCREMENTAL", "0");
-    command.env("CARGO_PROFILE_TEST_DEBUG", "0").env("CARGO_PROFILE_DEV_DEBUG", "0");
-    let started = |error| CoverageError::Start { program: "cargo".to_owned(), error };
-    let done = command.stdin(Stdio::null()).stderr(Stdio::piped()).output().map_err(started)?;
-    let lines = String::from_utf8_lossy(&done.stdout).into_owned();
-    let messages: Vec<Value> = lines.lines().filter_map(|line| serde_json::from_str(line).ok()).collect();
-    if !done.status.success() {
-        let errors = messages.iter().filter(|message| message.pointer("/message/level") == Some(&Value::from("error")));
-        let said: Vec<&str> =
-            errors.filter_map(|message| message.pointer("/message/rendered")?.as_str()).take(4).collect();
-        let rest = String::from_utf8_lossy(&done.stderr).into_owned();
-        return Err(CoverageError::Compile(if said.is_empty() { end(&rest) } else { said.concat() }));
+fn build(copy: &Copy, names: &[String]) -> Result<Vec<Program>, ToolError> {
+    let mut arguments = vec!["test", "--no-run"];
+    arguments.extend(TESTS.iter().flat_map(|package| ["-p", package]));
+    arguments.extend(names.iter().flat_map(|name| ["--test", name]));
+    // There is much to build.
+    let small = [("CARGO_INCREMENTAL", "0"), ("CARGO_PROFILE_TEST_DEBUG", "0"), ("CARGO_PROFILE_DEV_DEBUG", "0")];
+    let (compiles, said, rest) = cargo(copy, &arguments, &small)?;
+    if !compiles {
+        let said: Vec<&str> = errors(&said).filter_map(|message| message.rendered.as_deref()).take(4).collect();
+        return Err(ToolError::Compile(if said.is_empty() { end(&rest) } else { said.concat() }));
     }
-    let wanted = |target: &Target| !names.is_empty() || !LONG.contains(&target.name.as_str());
-    let mut targets: Vec<Target> = messages.iter().filter_map(target).filter(wanted).collect();
-    targets.sort();
-    Ok(targets)
-}
-
-fn target(message: &Value) -> Option<Target> {
-    if message.pointer("/profile/test") != Some(&Value::Bool(true)) {
-        return None;
-    }
-    let folder = Path::new(message.get("manifest_path")?.as_str()?).parent()?.to_owned();
-    let name = message.pointer("/target/name")?.as_str()?.to_owned();
-    let program = PathBuf::from(message.get("executable")?.as_str()?);
-    Some(Target { package: folder.file_name()?.to_str()?.to_owned(), name, folder, program })
+    let wanted = |program: &Program| !names.is_empty() || !LONG.contains(&program.name.as_str());
+    Ok(programs(&said).into_iter().filter(wanted).collect())
 }
 
 /// The time that it took; `None` if it had passed before, as it is.
-fn test(target: &Target, recorded: &Path) -> Result<Option<Duration>, CoverageError> {
+fn test(target: &Program, recorded: &Path) -> Result<Option<Duration>, ToolError> {
     let (begun, passed) = (Instant::now(), recorded.with_extension("done"));
     let changed = |path: &Path| fs::metadata(path).and_then(|data| data.modified()).ok();
-    if changed(&passed).zip(changed(&target.program)).is_some_and(|(passed, built)| passed > built) {
+    if changed(&passed).zip(changed(&target.path)).is_some_and(|(passed, built)| passed > built) {
         return Ok(None);
     }
     for left in [recorded, &passed] {
         if left.exists() {
-            fs::remove_file(left).map_err(|error| CoverageError::file(left, error))?;
+            fs::remove_file(left).map_err(|error| file(left, error))?;
         }
     }
-    let mut command = Command::new(&target.program);
-    command.current_dir(&target.folder).env("SUPERVISE_COVERAGE", recorded).stdin(Stdio::null());
-    let started = |error| CoverageError::Start { program: target.name.clone(), error };
-    let done = command.output().map_err(started)?;
+    let done = target.command().env("SUPERVISE_COVERAGE", recorded).output().map_err(ToolError::start(&target.name))?;
     if !done.status.success() {
         let text = end(&String::from_utf8_lossy(&done.stdout));
-        return Err(CoverageError::Test { test: target.name.clone(), text });
+        return Err(ToolError::Test { test: target.name.clone(), text });
     }
-    fs::write(&passed, "").map_err(|error| CoverageError::file(&passed, error))?;
+    fs::write(&passed, "").map_err(|error| file(&passed, error))?;
     Ok(Some(begun.elapsed()))
 }
 
@@ -259,22 +211,18 @@ fn end(text: &str) -> String {
 }
 
 /// The Rust files of a folder, or the file, from the root.
-fn files(root: &Path, of: &Path) -> Result<Vec<PathBuf>, CoverageError> {
+fn files(root: &Path, of: &Path) -> Result<Vec<PathBuf>, ToolError> {
     let path = root.join(of);
     if !path.is_dir() {
         return Ok(vec![of.to_owned()]);
     }
     let mut files = Vec::new();
-    for entry in fs::read_dir(&path).map_err(|error| CoverageError::file(&path, error))? {
-        let entry = entry.map_err(|error| CoverageError::file(&path, error))?;
+    for entry in fs::read_dir(&path).map_err(|error| file(&path, error))? {
+        let entry = entry.map_err(|error| file(&path, error))?;
         if entry.path().extension().is_some_and(|extension| extension == "rs") {
             files.push(of.join(entry.file_name()));
         }
     }
     files.sort();
     Ok(files)
-}
-
-fn read(path: &Path) -> Result<String, CoverageError> {
-    fs::read_to_string(path).map_err(|error| CoverageError::file(path, error))
 }

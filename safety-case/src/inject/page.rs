@@ -1,16 +1,14 @@
 //! The matrix as a page that works offline.
 
-use minijinja::value::Serde;
-use minijinja::{AutoEscape, Environment};
 use serde_json::{Value, json};
 
 use super::judge::{Row, Standing, against};
 use super::list::{Effect, Expected};
 use super::matrix::{Cell, Matrix};
 use super::table::{expected, figures};
+use crate::template::render;
 
 const PAGE: &str = include_str!("../../templates/inject.html");
-const STYLE: &str = include_str!("../../templates/style.css");
 
 /// The page as one HTML file.
 ///
@@ -22,19 +20,14 @@ pub fn page(rows: &[Row<'_>], matrix: &Matrix) -> Result<String, minijinja::Erro
     let run: Vec<Value> =
         rows.iter().filter(|row| row.standing != Standing::NotRun).map(|row| shown(row, matrix)).collect();
     let context = json!({
-        "version": env!("CARGO_PKG_VERSION"),
         "seed": matrix.seed,
         "runs": matrix.runs,
         "sources": matrix.sources.shipped.chars().take(12).collect::<String>(),
         "cards": cards,
         "drives": matrix.drives,
         "rows": run,
-        "style": STYLE,
     });
-    let mut environment = Environment::new();
-    environment.set_auto_escape_callback(|_| AutoEscape::Html);
-    environment.add_template("inject", PAGE)?;
-    environment.get_template("inject")?.render(Serde(context))
+    render(PAGE, context)
 }
 
 fn shown(row: &Row<'_>, matrix: &Matrix) -> Value {

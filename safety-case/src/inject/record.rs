@@ -5,7 +5,8 @@ use std::path::Path;
 
 use super::list::FILE;
 use super::matrix::{Matrix, Sources};
-use crate::prove::{ProveError, default_configuration, sha256, shipped, tokens};
+use crate::error::ToolError;
+use crate::prove::{default_configuration, sha256, shipped, tokens};
 
 /// Where it stands.
 pub const RECORD: &str = "safety-case/records/inject.json";
@@ -20,10 +21,10 @@ impl Sources {
     ///
     /// # Errors
     /// A file cannot be read or is no Rust.
-    pub fn load(root: &Path) -> Result<Self, ProveError> {
+    pub fn load(root: &Path) -> Result<Self, ToolError> {
         let read = |name: &str| {
             let path = root.join("safety-case/analysis").join(name);
-            fs::read(&path).map_err(|error| ProveError::File { path, error })
+            fs::read(&path).map_err(|error| ToolError::File { path, error })
         };
         let shipped = format!("{} {}", shipped(root)?, tokens(root, &FACADE)?);
         Ok(Self {

@@ -6,7 +6,7 @@ use std::str::FromStr;
 use proc_macro2::TokenStream;
 use sha2::{Digest, Sha256};
 
-use crate::prove::ProveError;
+use crate::error::ToolError;
 
 /// A source file with a mistake in it.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -61,9 +61,9 @@ fn tokens(text: &str) -> String {
 }
 
 /// A source file of the workspace.
-pub(super) fn source(root: &Path, name: &str) -> Result<String, ProveError> {
+pub(super) fn source(root: &Path, name: &str) -> Result<String, ToolError> {
     let path = root.join(name);
-    std::fs::read_to_string(&path).map_err(|error| ProveError::File { path, error })
+    std::fs::read_to_string(&path).map_err(|error| ToolError::File { path, error })
 }
 
 #[cfg(test)]

@@ -5,7 +5,8 @@ use std::path::Path;
 
 use super::list::{List, Mistake};
 use super::record::{Entry, Outcome, Record};
-use crate::prove::{ProveError, Sources};
+use crate::error::ToolError;
+use crate::prove::Sources;
 
 /// What the record does not show.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -65,7 +66,7 @@ pub fn check(
     root: &Path,
     sources: &Sources,
     proved: &BTreeSet<String>,
-) -> Result<Vec<Finding>, ProveError> {
+) -> Result<Vec<Finding>, ToolError> {
     let changed = |mistake: &Mistake| mistake.change(root).map(|change| change.digest());
     let (mut findings, mut stale) = (Vec::new(), 0_usize);
     for mistake in list.mistake.iter().filter(|mistake| mistake.survives.is_none()) {

@@ -8,8 +8,8 @@ use serde::Deserialize;
 use sha2::{Digest, Sha256};
 
 use super::change::{Change, source};
+use crate::error::ToolError;
 use crate::mutants::Genre;
-use crate::prove::ProveError;
 
 /// A place in a file, both counted from 1.
 #[derive(Clone, Copy, Debug, Deserialize)]
@@ -79,11 +79,11 @@ impl Listed {
     ///
     /// # Errors
     /// The file cannot be read; the mutation does not fit it, because the list was made of another text.
-    pub fn change(&self, root: &Path) -> Result<Change, ProveError> {
+    pub fn change(&self, root: &Path) -> Result<Change, ToolError> {
         let text = source(root, &self.file)?;
         let at = |place: Place| offset(&text, place).unwrap_or(usize::MAX);
         Change::at(&self.file, &text, at(self.span.start), at(self.span.end), &self.replacement).map_err(|message| {
-            ProveError::Form { path: root.join(&self.file), message: format!("{}: {message}", self.name) }
+            ToolError::Form { path: root.join(&self.file), message: format!("{}: {message}", self.name) }
         })
     }
 }
@@ -108,11 +108,11 @@ pub fn available() -> bool {
 ///
 /// # Errors
 /// It does not run, or its list is not understood.
-pub fn listed(root: &Path, package: &str) -> Result<Vec<Listed>, ProveError> {
+pub fn listed(root: &Path, package: &str) -> Result<Vec<Listed>, ToolError> {
     let mut command = Command::new("cargo");
     command.current_dir(root).args(["mutants", "--list", "--json", "--no-shuffle", "--no-config", "-p", package]);
-    let done = command.stdin(Stdio::null()).output().map_err(ProveError::Tool)?;
-    let bad = |message: String| ProveError::Form { path: "cargo mutants --list --json".into(), message };
+    let done = command.stdin(Stdio::null()).output().map_err(ToolError::start("cargo"))?;
+    let bad = |message: String| ToolError::Form { path: "cargo mutants --list --json".into(), message };
     if !done.status.success() {
         return Err(bad(String::from_utf8_lossy(&done.stderr).into_owned()));
     }

@@ -6,7 +6,8 @@ use std::path::Path;
 use serde::Deserialize;
 
 use super::change::{Change, source};
-use crate::prove::{Harness, List as Harnesses, ProveError};
+use crate::error::ToolError;
+use crate::prove::{Harness, List as Harnesses};
 
 /// Where the list stands.
 pub const LIST: &str = "proofs/mistakes.toml";
@@ -93,10 +94,10 @@ impl Mistake {
     ///
     /// # Errors
     /// The file cannot be read, or the mistake does not fit it.
-    pub fn change(&self, root: &Path) -> Result<Change, ProveError> {
+    pub fn change(&self, root: &Path) -> Result<Change, ToolError> {
         let text = source(root, &self.file)?;
         Change::new(&self.file, &text, &self.find, &self.replace)
-            .map_err(|message| ProveError::Form { path: root.join(LIST), message: format!("{}: {message}", self.name) })
+            .map_err(|message| ToolError::Form { path: root.join(LIST), message: format!("{}: {message}", self.name) })
     }
 }
 
@@ -105,9 +106,9 @@ impl List {
     ///
     /// # Errors
     /// The file cannot be read, or is no list.
-    pub fn load(root: &Path) -> Result<Self, ProveError> {
+    pub fn load(root: &Path) -> Result<Self, ToolError> {
         let text = source(root, LIST)?;
-        toml::from_str(&text).map_err(|error| ProveError::Form { path: root.join(LIST), message: error.to_string() })
+        toml::from_str(&text).map_err(|error| ToolError::Form { path: root.join(LIST), message: error.to_string() })
     }
 
     /// The harnesses to try on a drawn mistake in this function of this file.

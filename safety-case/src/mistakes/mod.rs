@@ -6,7 +6,6 @@
 
 mod change;
 mod check;
-mod copy;
 mod drawn;
 mod list;
 mod prover;
@@ -18,7 +17,6 @@ mod tests;
 
 pub use change::Change;
 pub use check::{Finding, check};
-pub use copy::Copy;
 pub use drawn::{Listed, available, draw, listed};
 pub use list::{Drawn, Explained, LIST, List, Mistake, Module};
 pub use prover::{Kani, Prover};

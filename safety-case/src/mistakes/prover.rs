@@ -2,10 +2,11 @@
 
 use std::time::{Duration, Instant};
 
-use super::copy::Copy;
 use super::record::{Outcome, Tried};
 use super::run::Task;
-use crate::prove::{Harness, Options, ProveError, Tools, Verdict, verify};
+use crate::copy::Copy;
+use crate::error::ToolError;
+use crate::prove::{Harness, Options, Tools, Verdict, verify};
 
 /// The package with the harnesses.
 const PACKAGE: &str = "supervisor-proofs";
@@ -16,7 +17,7 @@ pub trait Prover: Sync {
     ///
     /// # Errors
     /// The compiler does not start.
-    fn compiles(&self, copy: &Copy) -> Result<Result<(), String>, ProveError>;
+    fn compiles(&self, copy: &Copy) -> Result<Result<(), String>, ToolError>;
 
     /// The verdict on the assertions of a harness whose text contains `assertion`, which get this much time.
     ///
@@ -28,7 +29,7 @@ pub trait Prover: Sync {
         harness: &Harness,
         assertion: &str,
         within: Duration,
-    ) -> Result<(Verdict, Option<Tools>), ProveError>;
+    ) -> Result<(Verdict, Option<Tools>), ToolError>;
 }
 
 /// Kani.
@@ -36,7 +37,7 @@ pub trait Prover: Sync {
 pub struct Kani;
 
 impl Prover for Kani {
-    fn compiles(&self, copy: &Copy) -> Result<Result<(), String>, ProveError> {
+    fn compiles(&self, copy: &Copy) -> Result<Result<(), String>, ToolError> {
         copy.compiles(PACKAGE)
     }
 
@@ -46,7 +47,7 @@ impl Prover for Kani {
         harness: &Harness,
         assertion: &str,
         within: Duration,
-    ) -> Result<(Verdict, Option<Tools>), ProveError> {
+    ) -> Result<(Verdict, Option<Tools>), ToolError> {
         let timeout = within.min(Duration::from_secs(harness.timeout));
         let options = Options { timeout: Some(timeout), assertion: Some(assertion.to_owned()), ..Options::default() };
         match verify(copy.root(), &copy.target().join("kani"), harness, &options) {
@@ -54,11 +55,11 @@ impl Prover for Kani {
             Ok(done) if matches!(done.verdict, Verdict::Vacuous(_)) => Ok((Verdict::Proved, Some(done.tools))),
             Ok(done) => Ok((done.verdict, Some(done.tools))),
             // The shipped code compiles, so it is the harnesses that do not: then no mistake can be judged.
-            Err(ProveError::NoResult { harness, log }) if log.contains("Failed to execute cargo") => {
-                Err(ProveError::NoResult { harness, log })
+            Err(ToolError::NoResult { harness, log }) if log.contains("Failed to execute cargo") => {
+                Err(ToolError::NoResult { harness, log })
             }
             // Kani or CBMC itself: no catch.
-            Err(ProveError::NoResult { log, .. }) => {
+            Err(ToolError::NoResult { log, .. }) => {
                 let last = log.lines().last().unwrap_or("nothing").to_owned();
                 Ok((Verdict::Undetermined(format!("no result: {last}")), None))
             }
@@ -72,7 +73,7 @@ pub(super) fn judge(
     prover: &impl Prover,
     copy: &Copy,
     task: &Task,
-) -> Result<(Outcome, Vec<Tried>, Option<Tools>), ProveError> {
+) -> Result<(Outcome, Vec<Tried>, Option<Tools>), ToolError> {
     let started = Instant::now();
     copy.plant(&task.change)?;
     if let Err(error) = prover.compiles(copy)? {

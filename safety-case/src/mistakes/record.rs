@@ -5,7 +5,8 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use crate::prove::{ProveError, Sources, Tools};
+use crate::error::ToolError;
+use crate::prove::{Sources, Tools};
 
 /// Where it stands.
 pub const RECORD: &str = "proofs/mistakes.json";
@@ -111,24 +112,24 @@ impl Record {
     ///
     /// # Errors
     /// The file is there but is no record.
-    pub fn load(root: &Path) -> Result<Self, ProveError> {
+    pub fn load(root: &Path) -> Result<Self, ToolError> {
         let path = root.join(RECORD);
         if !path.exists() {
             return Ok(Self { version: 1, ..Self::default() });
         }
         let text = super::change::source(root, RECORD)?;
-        serde_json::from_str(&text).map_err(|error| ProveError::Form { path, message: error.to_string() })
+        serde_json::from_str(&text).map_err(|error| ToolError::Form { path, message: error.to_string() })
     }
 
     /// Writes it.
     ///
     /// # Errors
     /// The file cannot be written.
-    pub fn save(&self, root: &Path) -> Result<(), ProveError> {
+    pub fn save(&self, root: &Path) -> Result<(), ToolError> {
         let path = root.join(RECORD);
         let text = serde_json::to_string_pretty(self)
-            .map_err(|error| ProveError::Form { path: path.clone(), message: error.to_string() })?;
-        fs::write(&path, text + "\n").map_err(|error| ProveError::File { path, error })
+            .map_err(|error| ToolError::Form { path: path.clone(), message: error.to_string() })?;
+        fs::write(&path, text + "\n").map_err(|error| ToolError::File { path, error })
     }
 }
 

@@ -7,12 +7,13 @@ use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use super::change::Change;
-use super::copy::Copy;
 use super::drawn::{draw, listed};
 use super::list::List;
 use super::prover::{Prover, judge};
 use super::record::{Entry, Outcome, Record, put};
-use crate::prove::{Harness, List as Harnesses, ProveError, Sources, Tools};
+use crate::copy::Copy;
+use crate::error::ToolError;
+use crate::prove::{Harness, List as Harnesses, Sources, Tools};
 
 /// Longest time for a named mistake: each of its harnesses has a limit of its own.
 const NAMED: Duration = Duration::from_secs(3600);
@@ -94,16 +95,16 @@ impl Queue {
 ///
 /// # Errors
 /// The list is wrong, a file or a tool fails, or the sources change while it runs. What ran before is in the record.
-pub fn run(root: &Path, request: &Request, prover: &impl Prover, say: &mut impl FnMut(&str)) -> Result<(), ProveError> {
+pub fn run(root: &Path, request: &Request, prover: &impl Prover, say: &mut dyn FnMut(&str)) -> Result<(), ToolError> {
     let (mut list, harnesses) = (List::load(root)?, Harnesses::load(root)?);
     let order: Vec<String> = list.mistake.iter().map(|mistake| mistake.name.clone()).collect();
     if let Some(name) = request.names.iter().find(|name| !order.contains(name)) {
-        return Err(ProveError::Arguments(format!("no mistake named {name} in proofs/mistakes.toml")));
+        return Err(ToolError::Arguments(format!("no mistake named {name} in proofs/mistakes.toml")));
     }
     list.mistake.retain(|mistake| request.names.is_empty() || request.names.contains(&mistake.name));
     let findings = list.findings(root, &harnesses);
     if !findings.is_empty() {
-        return Err(ProveError::Arguments(findings.join("\n")));
+        return Err(ToolError::Arguments(findings.join("\n")));
     }
     let mut record = Record::load(root)?;
     let sources = Sources::load(root)?;
@@ -147,7 +148,7 @@ pub fn run(root: &Path, request: &Request, prover: &impl Prover, say: &mut impl 
 }
 
 /// A mistake as it ran, with the versions of the tools.
-type Ran = Result<(Entry, Option<Tools>), ProveError>;
+type Ran = Result<(Entry, Option<Tools>), ToolError>;
 
 /// One worker: its own copy, until nothing is left.
 fn work(
@@ -166,7 +167,7 @@ fn work(
         let started = Instant::now();
         let result = judge(prover, &copy, &task).and_then(|(outcome, tried, tools)| {
             if Sources::load(root)? != *sources {
-                return Err(ProveError::Arguments("the sources have changed while this ran".to_owned()));
+                return Err(ToolError::Arguments("the sources have changed while this ran".to_owned()));
             }
             let (change, seconds) = (task.change.digest(), started.elapsed().as_secs());
             let sources = sources.of_all(tried.iter().map(|tried| tried.harness.as_str()));
@@ -203,7 +204,7 @@ fn named(
     harnesses: &Harnesses,
     record: &Record,
     sources: &Sources,
-) -> Result<Work, ProveError> {
+) -> Result<Work, ToolError> {
     let chosen = list.mistake.iter().filter(|mistake| mistake.survives.is_none());
     let mut tasks = Vec::new();
     for mistake in request.shard.part(chosen) {
@@ -229,7 +230,7 @@ fn drawn(
     harnesses: &Harnesses,
     record: &mut Record,
     sources: &Sources,
-) -> Result<Work, ProveError> {
+) -> Result<Work, ToolError> {
     let seed = request.seed.unwrap_or(list.drawn.seed);
     let all = draw(listed(root, &list.drawn.package)?, seed);
     let order: Vec<String> = all.iter().map(|listed| listed.name.clone()).collect();

@@ -4,8 +4,10 @@ use std::fs;
 use std::path::Path;
 use std::time::Duration;
 
-use super::{Copy, Outcome, Prover, Record, Request, Shard, run};
-use crate::prove::{Harness, ProveError, Tools, Verdict};
+use super::{Outcome, Prover, Record, Request, Shard, run};
+use crate::copy::Copy;
+use crate::error::ToolError;
+use crate::prove::{Harness, Tools, Verdict};
 
 const SOURCE: &str = "fn first(a: u8) -> bool { a < 1 }\nfn second(a: u8) -> bool { a < 2 }\n";
 
@@ -13,7 +15,7 @@ const SOURCE: &str = "fn first(a: u8) -> bool { a < 1 }\nfn second(a: u8) -> boo
 struct Reader;
 
 impl Prover for Reader {
-    fn compiles(&self, copy: &Copy) -> Result<Result<(), String>, ProveError> {
+    fn compiles(&self, copy: &Copy) -> Result<Result<(), String>, ToolError> {
         let text = fs::read_to_string(copy.root().join("supervisor/core/src/lib.rs")).unwrap_or_default();
         Ok(if text.contains("missing") { Err("error: no such name".to_owned()) } else { Ok(()) })
     }
@@ -23,7 +25,7 @@ impl Prover for Reader {
         harness: &Harness,
         assertion: &str,
         _: Duration,
-    ) -> Result<(Verdict, Option<Tools>), ProveError> {
+    ) -> Result<(Verdict, Option<Tools>), ToolError> {
         let text = fs::read_to_string(copy.root().join("supervisor/core/src/lib.rs")).unwrap_or_default();
         // Another assertion fails before the hidden one.
         let fails = harness.name == "finds_first" && text.contains("a <= 1") && assertion != "hidden";
@@ -114,6 +116,6 @@ fn a_list_that_does_not_fit_the_sources_runs_nothing() {
     workspace(root);
     write(root, "supervisor/core/src/lib.rs", "fn first(a: u8) -> bool { a < 1 }\n");
     let done = run(root, &request(), &Reader, &mut |_: &str| ());
-    assert!(matches!(done, Err(ProveError::Arguments(_))), "{done:?}");
+    assert!(matches!(done, Err(ToolError::Arguments(_))), "{done:?}");
     assert!(!root.join("proofs/mistakes.json").exists());
 }

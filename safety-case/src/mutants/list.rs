@@ -5,8 +5,8 @@ use std::path::Path;
 use serde::Deserialize;
 
 use super::switch::Mutant;
+use crate::error::ToolError;
 use crate::mistakes::{Listed, listed};
-use crate::prove::ProveError;
 
 /// The crates that are mutated: what decides, sees and speaks. (`report` only tells.)
 pub const PACKAGES: [(&str, &str); 5] = [
@@ -44,15 +44,15 @@ impl Explained {
     ///
     /// # Errors
     /// The file cannot be read, or does not say what it should.
-    pub fn all(root: &Path) -> Result<Vec<Self>, ProveError> {
+    pub fn all(root: &Path) -> Result<Vec<Self>, ToolError> {
         let path = root.join(EXPLAINED);
         let text = match std::fs::read_to_string(&path) {
             Ok(text) => text,
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(Vec::new()),
-            Err(error) => return Err(ProveError::File { path, error }),
+            Err(error) => return Err(ToolError::File { path, error }),
         };
         let read: Result<Explanations, _> = toml::from_str(&text);
-        read.map(|read| read.mutant).map_err(|error| ProveError::Form { path, message: error.to_string() })
+        read.map(|read| read.mutant).map_err(|error| ToolError::Form { path, message: error.to_string() })
     }
 
     /// Whether it speaks of the mutant with this name.
@@ -66,7 +66,7 @@ impl Explained {
 ///
 /// # Errors
 /// cargo-mutants does not run.
-pub fn every(root: &Path) -> Result<Vec<(u32, Listed)>, ProveError> {
+pub fn every(root: &Path) -> Result<Vec<(u32, Listed)>, ToolError> {
     let mut all = Vec::new();
     for (package, _) in PACKAGES {
         all.extend(listed(root, package)?);

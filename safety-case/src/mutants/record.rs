@@ -5,7 +5,7 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use crate::prove::ProveError;
+use crate::error::{ToolError, form, write};
 
 /// Where it stands.
 pub const RECORD: &str = "safety-case/records/mutants.json";
@@ -58,14 +58,12 @@ impl Record {
     ///
     /// # Errors
     /// It cannot be read or understood.
-    pub fn load(root: &Path) -> Result<Self, ProveError> {
+    pub fn load(root: &Path) -> Result<Self, ToolError> {
         let path = root.join(RECORD);
         match std::fs::read(&path) {
-            Ok(bytes) => {
-                serde_json::from_slice(&bytes).map_err(|error| ProveError::Form { path, message: error.to_string() })
-            }
+            Ok(bytes) => serde_json::from_slice(&bytes).map_err(|error| form(&path, &error)),
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(Self::default()),
-            Err(error) => Err(ProveError::File { path, error }),
+            Err(error) => Err(ToolError::File { path, error }),
         }
     }
 
@@ -73,9 +71,9 @@ impl Record {
     ///
     /// # Errors
     /// It cannot be written.
-    pub fn save(&self, root: &Path) -> Result<(), ProveError> {
+    pub fn save(&self, root: &Path) -> Result<(), ToolError> {
         let path = root.join(RECORD);
-        let form = |error: serde_json::Error| ProveError::Form { path: path.clone(), message: error.to_string() };
+        let form = |error: serde_json::Error| form(&path, &error);
         // One line for each mutant: a change is one line of a diff.
         let mut text = format!(
             "{{\n\"sources\": {},\n\"listed\": {},\n\"tests\": {},\n\"mutants\": [\n",
@@ -89,7 +87,7 @@ impl Record {
             text.push_str(&serde_json::to_string(entry).map_err(form)?);
         }
         text.push_str("\n]\n}\n");
-        std::fs::write(&path, text).map_err(|error| ProveError::File { path, error })
+        write(&path, text.as_bytes())
     }
 
     /// Takes over what ran, in the order of the names.

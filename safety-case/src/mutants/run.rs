@@ -1,7 +1,7 @@
 //! Runs the tests once for each mutant.
 
-use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::path::Path;
+use std::process::Stdio;
 use std::sync::mpsc::channel;
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
@@ -9,13 +9,19 @@ use std::time::{Duration, Instant};
 use super::build::built;
 use super::list::every;
 use super::record::{Entry, Outcome, Record};
+use crate::copy::Program;
+use crate::error::ToolError;
 use crate::mistakes::Shard;
-use crate::prove::{ProveError, shipped};
+use crate::prove::shipped;
 
+/// A test program that takes longer without a mutant does not run: every mutant that survives the others would wait for it.
+const LONGEST: Duration = Duration::from_secs(20);
 /// What a test program may take beside a multiple of what it takes without a mutant.
-const PATIENCE: Duration = Duration::from_secs(10);
+const PATIENCE: Duration = Duration::from_secs(5);
 /// How often is looked whether it has ended.
 const LOOK: Duration = Duration::from_millis(5);
+/// The record is written every so many mutants.
+const EVERY: usize = 10;
 
 /// What to run.
 #[derive(Clone, Copy, Debug)]
@@ -30,32 +36,35 @@ pub struct Request {
     pub within: Option<Duration>,
 }
 
-/// A test program.
+/// A test program, and what is known of it.
 #[derive(Clone, Debug)]
-struct Program {
-    name: String,
-    path: PathBuf,
-    folder: PathBuf,
+struct Test {
+    program: Program,
     /// What it takes without a mutant.
     takes: Duration,
     /// How many mutants it has caught.
     caught: u32,
 }
 
-impl Program {
+impl Test {
+    fn name(&self) -> String {
+        format!("{}/{}", self.program.package, self.program.name)
+    }
+
     /// Whether it passes, with a mutant or without one. One that does not end in time does not.
-    fn passes(&self, mutant: u32, within: Duration) -> Result<bool, ProveError> {
-        let mut command = Command::new(&self.path);
-        command.current_dir(&self.folder).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
+    fn passes(&self, mutant: u32, within: Duration) -> Result<bool, ToolError> {
+        let mut command = self.program.command();
+        command.stdout(Stdio::null()).stderr(Stdio::null());
         command.env("RUST_TEST_THREADS", "1").env("RUST_BACKTRACE", "0").env("MUTANT", mutant.to_string());
-        let mut child = command.spawn().map_err(ProveError::Tool)?;
+        let started = ToolError::start(&self.program.name);
+        let mut child = command.spawn().map_err(&started)?;
         let began = Instant::now();
         loop {
-            if let Some(status) = child.try_wait().map_err(ProveError::Tool)? {
+            if let Some(status) = child.try_wait().map_err(&started)? {
                 return Ok(status.success());
             }
             if began.elapsed() > within {
-                child.kill().and_then(|()| child.wait()).map_err(ProveError::Tool)?;
+                child.kill().and_then(|()| child.wait()).map_err(&started)?;
                 return Ok(false);
             }
             std::thread::sleep(LOOK);
@@ -73,32 +82,33 @@ impl Program {
 }
 
 /// Measures the test programs without a mutant; what does not pass then judges nothing, and is told.
-fn measured(programs: Vec<(String, PathBuf, PathBuf)>, say: &mut dyn FnMut(&str)) -> Result<Vec<Program>, ProveError> {
+fn measured(programs: Vec<Program>, say: &mut dyn FnMut(&str)) -> Result<Vec<Test>, ToolError> {
     let mut all = Vec::new();
-    for (name, path, folder) in programs {
-        let mut program = Program { name, path, folder, takes: Duration::ZERO, caught: 0 };
+    for program in programs {
+        let mut test = Test { program, takes: Duration::ZERO, caught: 0 };
         let began = Instant::now();
-        if program.passes(0, Duration::from_secs(600))? {
-            program.takes = began.elapsed();
-            all.push(program);
+        let passes = test.passes(0, LONGEST)?;
+        test.takes = began.elapsed();
+        if passes {
+            all.push(test);
         } else {
-            say(&format!("LEFT OUT: {} does not pass without a mutant", program.name));
+            say(&format!("LEFT OUT: {} does not pass within {} s without a mutant", test.name(), LONGEST.as_secs()));
         }
     }
     Ok(all)
 }
 
-/// Runs the programs until one fails: which.
-fn caught(programs: &Mutex<Vec<Program>>, mutant: u32) -> Result<Option<String>, ProveError> {
-    let lock = || programs.lock().unwrap_or_else(PoisonError::into_inner);
+/// Runs the tests until one fails: which.
+fn caught(tests: &Mutex<Vec<Test>>, mutant: u32) -> Result<Option<String>, ToolError> {
+    let lock = || tests.lock().unwrap_or_else(PoisonError::into_inner);
     let mut order = lock().clone();
     order.sort_by(|one, other| other.worth().total_cmp(&one.worth()));
-    for program in order {
-        if !program.passes(mutant, program.patience())? {
-            if let Some(found) = lock().iter_mut().find(|present| present.name == program.name) {
+    for test in order {
+        if !test.passes(mutant, test.patience())? {
+            if let Some(found) = lock().iter_mut().find(|present| present.program == test.program) {
                 found.caught = found.caught.saturating_add(1);
             }
-            return Ok(Some(program.name));
+            return Ok(Some(test.name()));
         }
     }
     Ok(None)
@@ -108,19 +118,18 @@ fn caught(programs: &Mutex<Vec<Program>>, mutant: u32) -> Result<Option<String>,
 ///
 /// # Errors
 /// A file or a tool fails, or the sources change while it runs. What ran before is in the record.
-pub fn run(root: &Path, request: Request, say: &mut dyn FnMut(&str)) -> Result<(), ProveError> {
+pub fn run(root: &Path, request: Request, say: &mut dyn FnMut(&str)) -> Result<(), ToolError> {
     let sources = shipped(root)?;
     let all = every(root)?;
     let target = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root.join("target"), |folder| root.join(folder));
     let built = built(root, &target.join("mutants"), &all, say)?;
-    let programs = measured(built.programs, say)?;
+    let tests = measured(built.programs, say)?;
     let mut record = Record::load(root)?;
-    let mut tests: Vec<String> = programs.iter().map(|program| program.name.clone()).collect();
-    tests.sort();
+    let names = tests.iter().map(Test::name).collect();
     if record.sources != sources || request.again {
         record = Record::default();
     }
-    record = Record { sources: sources.clone(), listed: all.len(), tests, ..record };
+    record = Record { sources: sources.clone(), listed: all.len(), tests: names, ..record };
     let mut queue = Vec::new();
     for (number, listed) in request.shard.part(all) {
         let name = listed.name.clone();
@@ -138,8 +147,8 @@ pub fn run(root: &Path, request: Request, say: &mut dyn FnMut(&str)) -> Result<(
     }
     record.save(root)?;
     let (total, began) = (queue.len(), Instant::now());
-    say(&format!("{total} to run against {} test programs, {} at a time", programs.len(), request.jobs));
-    let (queue, programs) = (Mutex::new(queue.into_iter()), Mutex::new(programs));
+    say(&format!("{total} to run against {} test programs, {} at a time", tests.len(), request.jobs));
+    let (queue, tests) = (Mutex::new(queue.into_iter()), Mutex::new(tests));
     let next = || {
         let goes_on = request.within.is_none_or(|within| began.elapsed() < within);
         goes_on.then(|| queue.lock().unwrap_or_else(PoisonError::into_inner).next()).flatten()
@@ -147,11 +156,11 @@ pub fn run(root: &Path, request: Request, say: &mut dyn FnMut(&str)) -> Result<(
     std::thread::scope(|scope| {
         let (sender, results) = channel();
         for _ in 0..request.jobs.max(1) {
-            let (sender, next, programs) = (sender.clone(), &next, &programs);
+            let (sender, next, tests) = (sender.clone(), &next, &tests);
             scope.spawn(move || {
                 while let Some((number, name)) = next() {
                     let outcome =
-                        caught(programs, number).map(|by| by.map_or(Outcome::Survived, |by| Outcome::Caught { by }));
+                        caught(tests, number).map(|by| by.map_or(Outcome::Survived, |by| Outcome::Caught { by }));
                     let ends = outcome.is_err();
                     if sender.send(outcome.map(|outcome| Entry { name, outcome })).is_err() || ends {
                         return;
@@ -168,11 +177,11 @@ pub fn run(root: &Path, request: Request, say: &mut dyn FnMut(&str)) -> Result<(
                 say(&format!("SURVIVED {}", entry.name));
             }
             record.put(entry);
-            if done.is_multiple_of(50) || done == total {
+            if done.is_multiple_of(EVERY) || done == total {
                 let minutes = began.elapsed().as_secs() / 60;
                 say(&format!("{done} of {total}, {minutes} min so far"));
                 if shipped(root)? != sources {
-                    return Err(ProveError::Arguments("the sources have changed while this ran".to_owned()));
+                    return Err(ToolError::Arguments("the sources have changed while this ran".to_owned()));
                 }
                 record.save(root)?;
             }

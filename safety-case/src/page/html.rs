@@ -1,7 +1,5 @@
 //! The HTML around the figure.
 
-use minijinja::value::Serde;
-use minijinja::{AutoEscape, Environment};
 use serde::Serialize;
 use serde_json::json;
 use supervisor::Channel;
@@ -10,25 +8,17 @@ use super::Picture;
 use super::figure::Figure;
 use super::slots::TONES;
 use crate::number::{grouped, seconds};
+use crate::template::render;
 use crate::words;
 
 const PAGE: &str = include_str!("../../templates/page.html");
 const INDEX: &str = include_str!("../../templates/index.html");
-const STYLE: &str = include_str!("../../templates/style.css");
 const SCRIPT: &str = include_str!("../../templates/page.js");
 
 /// How many entries of the timeline the page shows.
 const ENTRIES: usize = 400;
 /// How many odd things it shows.
 const ODD: usize = 40;
-
-fn environment() -> Result<Environment<'static>, minijinja::Error> {
-    let mut environment = Environment::new();
-    environment.set_auto_escape_callback(|_| AutoEscape::Html);
-    environment.add_template("page", PAGE)?;
-    environment.add_template("index", INDEX)?;
-    Ok(environment)
-}
 
 /// plotly.js as the crate carries it, without its formula renderer, which nothing here needs.
 fn library() -> String {
@@ -123,7 +113,6 @@ pub fn page(figure: &Figure, picture: &Picture<'_>) -> Result<String, minijinja:
         "title": picture.title,
         "logs": picture.logs.iter().map(|log| log.rsplit(['/', '\\']).next().unwrap_or(log)).collect::<Vec<_>>(),
         "mapping": report.mapping,
-        "version": env!("CARGO_PKG_VERSION"),
         "cards": cards,
         "interventions": report.summary.interventions(),
         "brief": report.summary.brief(),
@@ -139,12 +128,11 @@ pub fn page(figure: &Figure, picture: &Picture<'_>) -> Result<String, minijinja:
         "silent": !report.summary.commanded(),
         "tones": tones,
         "height": figure.height,
-        "style": STYLE,
         "script": SCRIPT,
         "library": library(),
         "figure": inside_script(&figure.json),
     });
-    environment()?.get_template("page")?.render(Serde(context))
+    render(PAGE, context)
 }
 
 /// One drive on the index.
@@ -171,6 +159,5 @@ pub struct IndexEntry {
 /// # Errors
 /// If the template does not render.
 pub fn index(entries: &[IndexEntry]) -> Result<String, minijinja::Error> {
-    let context = json!({"entries": entries, "style": STYLE, "version": env!("CARGO_PKG_VERSION")});
-    environment()?.get_template("index")?.render(Serde(context))
+    render(INDEX, json!({"entries": entries}))
 }

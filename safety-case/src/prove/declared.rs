@@ -6,20 +6,20 @@ use std::path::Path;
 
 use syn::visit::{self, Visit};
 
-use super::error::{ProveError, file, form, read};
+use crate::error::{ToolError, file, form, read};
 
 /// The harnesses of `proofs/src`, as Kani names them. One that a macro makes is not seen; Kani's own list, which every
 /// complete run reads, has it.
 ///
 /// # Errors
 /// A file cannot be read or is no Rust.
-pub fn declared(root: &Path) -> Result<BTreeSet<String>, ProveError> {
+pub fn declared(root: &Path) -> Result<BTreeSet<String>, ToolError> {
     let mut found = BTreeSet::new();
     walk(&root.join("proofs/src"), &[], &mut found)?;
     Ok(found)
 }
 
-fn walk(folder: &Path, modules: &[String], found: &mut BTreeSet<String>) -> Result<(), ProveError> {
+fn walk(folder: &Path, modules: &[String], found: &mut BTreeSet<String>) -> Result<(), ToolError> {
     let error = |error| file(folder, error);
     for entry in fs::read_dir(folder).map_err(error)? {
         let path = entry.map_err(error)?.path();

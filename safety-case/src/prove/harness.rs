@@ -5,7 +5,7 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use super::error::{ProveError, form, read};
+use crate::error::{ToolError, form, read};
 
 /// Where the list stands.
 pub const LIST: &str = "proofs/harnesses.toml";
@@ -114,7 +114,7 @@ impl List {
     ///
     /// # Errors
     /// The file cannot be read, or names a harness twice.
-    pub fn load(root: &Path) -> Result<Self, ProveError> {
+    pub fn load(root: &Path) -> Result<Self, ToolError> {
         let path = root.join(LIST);
         let list: Self = toml::from_str(&read(&path)?).map_err(|error| form(&path, &error))?;
         let mut names: Vec<_> = list.harness.iter().map(|harness| &harness.name).collect();

@@ -13,10 +13,10 @@ use std::time::{Duration, Instant};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use super::error::{ProveError, file, form, read};
 use super::harness::{Checks, Harness, Solver};
 use super::judge::{Verdict, judge};
 use super::raw::Raw;
+use crate::error::{ToolError, file, form, read};
 
 /// The package with the harnesses.
 const PACKAGE: &str = "supervisor-proofs";
@@ -99,7 +99,7 @@ pub fn available() -> bool {
 ///
 /// # Errors
 /// A file or the tool fails, or Kani exports nothing for this harness.
-pub fn verify(root: &Path, target: &Path, harness: &Harness, options: &Options) -> Result<Outcome, ProveError> {
+pub fn verify(root: &Path, target: &Path, harness: &Harness, options: &Options) -> Result<Outcome, ToolError> {
     let solver = options.solver.unwrap_or(harness.solver);
     fs::create_dir_all(target).map_err(|error| file(target, error))?;
     let export = target.join(format!("{}.json", harness.name));
@@ -115,14 +115,14 @@ pub fn verify(root: &Path, target: &Path, harness: &Harness, options: &Options) 
     let log = run(&mut command, &target.join(format!("{}.log", harness.name)))?;
     let seconds = started.elapsed().as_secs();
     if !export.exists() {
-        return Err(ProveError::NoResult { harness: harness.name.clone(), log: end(&read(&log)?) });
+        return Err(ToolError::NoResult { harness: harness.name.clone(), log: end(&read(&log)?) });
     }
     let json: Value = serde_json::from_str(&read(&export)?).map_err(|error| form(&export, &error))?;
     let raw = Raw::of(&json, root);
     let json = raw.export().map_err(|error| form(&export, &error))?;
     let id = harness.id();
     let Some((checks, covers)) = counts(&json, &id) else {
-        return Err(ProveError::NoResult { harness: harness.name.clone(), log: end(&read(&log)?) });
+        return Err(ToolError::NoResult { harness: harness.name.clone(), log: end(&read(&log)?) });
     };
     Ok(Outcome { verdict: judge(&json, &id), checks, covers, seconds, solver, tools: Tools::of(&json), raw })
 }
@@ -144,7 +144,7 @@ fn restrict(
     target: &Path,
     harness: &Harness,
     options: &Options,
-) -> Result<(), ProveError> {
+) -> Result<(), ToolError> {
     if harness.checks == Checks::Own || options.assertion.is_some() {
         command.arg("--cbmc-args");
         for name in own(root, target, harness, options)? {
@@ -156,16 +156,16 @@ fn restrict(
 
 /// The names of the checks that a harness of [`Checks::Own`] decides: what stands in this package, and the bound of
 /// every loop, without which a proof would be one of the first few rounds only.
-fn own(root: &Path, target: &Path, harness: &Harness, options: &Options) -> Result<Vec<String>, ProveError> {
+fn own(root: &Path, target: &Path, harness: &Harness, options: &Options) -> Result<Vec<String>, ToolError> {
     let mut command = command(root, target, options.configuration.as_deref());
     select(&mut command, harness, options);
     let log = run(command.arg("--only-codegen"), &target.join(format!("{}-codegen.log", harness.name)))?;
-    let none = |log: String| ProveError::NoResult { harness: harness.name.clone(), log };
+    let none = |log: String| ToolError::NoResult { harness: harness.name.clone(), log };
     let Some(program) = program(target, &harness.name) else { return Err(none(end(&read(&log)?))) };
     let mut command = Command::new(cbmc());
     // As Kani calls it: a check that only CBMC's own defaults make is unknown where Kani makes none, and naming it ends the run.
     command.args(CHECKS).args(["--object-bits", "16", "--show-properties", "--json-ui"]).arg(&program);
-    let said = command.stdin(Stdio::null()).stderr(Stdio::null()).output().map_err(ProveError::Tool)?;
+    let said = command.stdin(Stdio::null()).stderr(Stdio::null()).output().map_err(ToolError::start("cargo"))?;
     let json: Value = serde_json::from_slice(&said.stdout).map_err(|error| none(format!("cbmc: {error}")))?;
     let listed = json.as_array().into_iter().flatten().filter_map(|item| item.get("properties")?.as_array());
     let chosen = |property: &&Value| {
@@ -218,7 +218,7 @@ fn cbmc() -> PathBuf {
 ///
 /// # Errors
 /// A file or the tool fails, or the sources do not compile.
-pub fn compile(root: &Path, target: &Path, options: &Options) -> Result<BTreeSet<String>, ProveError> {
+pub fn compile(root: &Path, target: &Path, options: &Options) -> Result<BTreeSet<String>, ToolError> {
     fs::create_dir_all(target).map_err(|error| file(target, error))?;
     // Kani writes its list into the folder it runs in.
     let list = target.join("kani-list.json");
@@ -229,7 +229,7 @@ pub fn compile(root: &Path, target: &Path, options: &Options) -> Result<BTreeSet
     command.current_dir(target).arg("--manifest-path").arg(root.join("Cargo.toml"));
     let log = run(command.args(["list", "--format", "json", "-Z", "stubbing"]), &target.join("kani-list.log"))?;
     if !list.exists() {
-        return Err(ProveError::NoResult { harness: "the list of harnesses".to_owned(), log: end(&read(&log)?) });
+        return Err(ToolError::NoResult { harness: "the list of harnesses".to_owned(), log: end(&read(&log)?) });
     }
     let json: Value = serde_json::from_str(&read(&list)?).map_err(|error| form(&list, &error))?;
     let kinds = ["standard-harnesses", "contract-harnesses"];
@@ -243,7 +243,7 @@ pub fn compile(root: &Path, target: &Path, options: &Options) -> Result<BTreeSet
 ///
 /// # Errors
 /// A file or the tool fails.
-pub fn playback(root: &Path, target: &Path, harness: &Harness, options: &Options) -> Result<Vec<String>, ProveError> {
+pub fn playback(root: &Path, target: &Path, harness: &Harness, options: &Options) -> Result<Vec<String>, ToolError> {
     fs::create_dir_all(target).map_err(|error| file(target, error))?;
     let mut command = command(root, target, options.configuration.as_deref());
     select(&mut command, harness, options);
@@ -286,11 +286,11 @@ fn select(command: &mut Command, harness: &Harness, options: &Options) {
 }
 
 /// Runs it; everything it says goes to `log`.
-fn run(command: &mut Command, log: &Path) -> Result<PathBuf, ProveError> {
+fn run(command: &mut Command, log: &Path) -> Result<PathBuf, ToolError> {
     let said = File::create(log).map_err(|error| file(log, error))?;
     let too = said.try_clone().map_err(|error| file(log, error))?;
     command.stdin(Stdio::null()).stdout(said).stderr(too);
-    command.status().map_err(ProveError::Tool)?;
+    command.status().map_err(ToolError::start("cargo"))?;
     Ok(log.to_owned())
 }
 

@@ -8,7 +8,6 @@
 //! `run.rs`; which ones, `plan.rs`; what makes a record stale, `sources.rs`; what it says today, `status.rs`.
 
 mod declared;
-mod error;
 mod harness;
 mod judge;
 mod kani;
@@ -22,7 +21,6 @@ mod status;
 mod table;
 
 pub use declared::declared;
-pub use error::ProveError;
 pub use harness::{Checks, Harness, LIST, List, Solver};
 pub use judge::{Verdict, judge};
 pub use kani::{CONFIGURATION, Options, Outcome, Tools, available, compile, playback, verify};

@@ -1,9 +1,9 @@
 //! Which harnesses run, and in which order.
 
-use super::error::ProveError;
 use super::harness::{Harness, List};
 use super::record::Record;
 use super::sources::sha256;
+use crate::error::ToolError;
 
 /// What a harness is taken to need that never ran, in seconds.
 const UNKNOWN: u64 = 120;
@@ -22,9 +22,9 @@ pub fn seconds(harness: &Harness, record: &Record) -> u64 {
 ///
 /// # Errors
 /// A name is not in the list.
-pub fn named<'a>(list: &'a List, names: &[String]) -> Result<Vec<&'a Harness>, ProveError> {
+pub fn named<'a>(list: &'a List, names: &[String]) -> Result<Vec<&'a Harness>, ToolError> {
     if let Some(name) = names.iter().find(|name| list.of(name).is_none()) {
-        return Err(ProveError::Unknown(name.clone()));
+        return Err(ToolError::Unknown(name.clone()));
     }
     Ok(list.harness.iter().filter(|harness| names.is_empty() || names.contains(&harness.name)).collect())
 }
@@ -113,7 +113,7 @@ mod tests {
         let record = recorded(&list, &[("a", 5), ("b", 50), ("d", 7)]);
         assert_eq!(names(&ordered(named(&list, &[])?, &record)), ["c", "b", "d", "a"]);
         assert_eq!(names(&named(&list, &["b".to_owned()])?), ["b"]);
-        assert!(matches!(named(&list, &["x".to_owned()]), Err(ProveError::Unknown(_))));
+        assert!(matches!(named(&list, &["x".to_owned()]), Err(ToolError::Unknown(_))));
         Ok(())
     }
 

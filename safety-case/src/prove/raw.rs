@@ -7,8 +7,8 @@ use flate2::read::GzDecoder;
 use flate2::{Compression, GzBuilder};
 use serde_json::{Map, Value};
 
-use super::error::{ProveError, file, write};
 use super::sources::sha256;
+use crate::error::{ToolError, file, write};
 
 /// Where they stand.
 pub const RESULTS: &str = "proofs/results";
@@ -49,7 +49,7 @@ impl Raw {
     ///
     /// # Errors
     /// The file cannot be written.
-    pub fn save(&self, folder: &Path, harness: &str) -> Result<(), ProveError> {
+    pub fn save(&self, folder: &Path, harness: &str) -> Result<(), ToolError> {
         let path = place(folder, harness);
         let mut packer = GzBuilder::new().mtime(0).operating_system(255).write(Vec::new(), Compression::best());
         let bytes = packer.write_all(&self.0).and_then(|()| packer.finish()).map_err(|error| file(&path, error))?;
@@ -60,7 +60,7 @@ impl Raw {
     ///
     /// # Errors
     /// The file cannot be read, or is not packed.
-    pub fn load(folder: &Path, harness: &str) -> Result<Self, ProveError> {
+    pub fn load(folder: &Path, harness: &str) -> Result<Self, ToolError> {
         let path = place(folder, harness);
         let mut bytes = Vec::new();
         let packed = std::fs::File::open(&path).map_err(|error| file(&path, error))?;

@@ -5,11 +5,11 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
-use super::error::{ProveError, file, form, read, write};
 use super::harness::{Checks, List, Solver};
 use super::judge::Verdict;
 use super::kani::Tools;
 use super::raw::{RESULTS, Raw};
+use crate::error::{ToolError, file, form, read, write};
 
 /// The record that is committed.
 pub const RECORD: &str = "proofs/record.json";
@@ -93,7 +93,7 @@ impl Record {
     ///
     /// # Errors
     /// The file is there but is no record of this layout.
-    pub fn load(path: &Path) -> Result<Self, ProveError> {
+    pub fn load(path: &Path) -> Result<Self, ToolError> {
         if !path.exists() {
             return Ok(Self::default());
         }
@@ -109,7 +109,7 @@ impl Record {
     ///
     /// # Errors
     /// The file cannot be written.
-    pub fn save(&self, path: &Path) -> Result<(), ProveError> {
+    pub fn save(&self, path: &Path) -> Result<(), ToolError> {
         let text = serde_json::to_string_pretty(self).map_err(|error| form(path, &error))?;
         let beside = path.with_extension("json.tmp");
         write(&beside, (text + "\n").as_bytes())?;
@@ -145,7 +145,7 @@ impl Record {
     ///
     /// # Errors
     /// A raw result is missing or is not the one the part speaks of; a file cannot be written.
-    pub fn merge(&mut self, from: &Place, to: &Place, list: &List) -> Result<usize, ProveError> {
+    pub fn merge(&mut self, from: &Place, to: &Place, list: &List) -> Result<usize, ToolError> {
         if !from.record.exists() {
             return Err(form(&from.record, &"is not there"));
         }

@@ -7,11 +7,11 @@ use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::thread;
 use std::time::Duration;
 
-use super::error::ProveError;
 use super::harness::Harness;
 use super::kani::{self, Options, Outcome};
 use super::progress::Progress;
 use super::record::Record;
+use crate::error::ToolError;
 
 /// The display is brought up to date so often.
 const TICK: Duration = Duration::from_secs(1);
@@ -31,7 +31,7 @@ pub struct Workers<'a> {
 
 enum Event {
     Begun(usize),
-    Ended(usize, Box<Result<Outcome, ProveError>>),
+    Ended(usize, Box<Result<Outcome, ToolError>>),
 }
 
 impl Workers<'_> {
@@ -44,8 +44,8 @@ impl Workers<'_> {
         &self,
         harnesses: &[&Harness],
         record: &Record,
-        mut ended: impl FnMut(&Harness, Result<Outcome, ProveError>, &Progress) -> Result<(), ProveError>,
-    ) -> Result<(), ProveError> {
+        mut ended: impl FnMut(&Harness, Result<Outcome, ToolError>, &Progress) -> Result<(), ToolError>,
+    ) -> Result<(), ToolError> {
         let jobs = self.jobs.clamp(1, harnesses.len().max(1));
         let queue = Mutex::new((0..harnesses.len()).collect::<VecDeque<usize>>());
         let mut progress = Progress::start(harnesses, record, jobs);

@@ -9,7 +9,7 @@ use quote::ToTokens;
 use sha2::{Digest, Sha256};
 use supervisor::{SEALED_BYTES, Sealed};
 
-use super::error::{ProveError, file, form, read};
+use crate::error::{ToolError, file, form, read};
 
 /// Folders of the shipped sources.
 const SHIPPED: [&str; 5] = [
@@ -32,8 +32,8 @@ pub fn sha256(bytes: &[u8]) -> String {
 ///
 /// # Errors
 /// The table of limits contradicts itself.
-pub fn default_configuration() -> Result<String, ProveError> {
-    let sealed = Sealed::from_default().map_err(|error| ProveError::Arguments(error.to_string()))?;
+pub fn default_configuration() -> Result<String, ToolError> {
+    let sealed = Sealed::from_default().map_err(|error| ToolError::Arguments(error.to_string()))?;
     Ok(configuration_digest(&sealed.to_bytes()))
 }
 
@@ -60,7 +60,7 @@ impl Sources {
     ///
     /// # Errors
     /// A folder or file cannot be read, or is no Rust.
-    pub fn load(root: &Path) -> Result<Self, ProveError> {
+    pub fn load(root: &Path) -> Result<Self, ToolError> {
         let (shipped, mut parts) = (shipped(root)?, Vec::new());
         let mut whole = Sha256::new();
         put(&mut whole, &shipped);
@@ -105,7 +105,7 @@ impl Sources {
 ///
 /// # Errors
 /// A folder or file cannot be read, or is no Rust.
-pub fn shipped(root: &Path) -> Result<String, ProveError> {
+pub fn shipped(root: &Path) -> Result<String, ToolError> {
     tokens(root, &SHIPPED)
 }
 
@@ -113,7 +113,7 @@ pub fn shipped(root: &Path) -> Result<String, ProveError> {
 ///
 /// # Errors
 /// A folder or file cannot be read, or is no Rust.
-pub fn tokens(root: &Path, folders: &[&str]) -> Result<String, ProveError> {
+pub fn tokens(root: &Path, folders: &[&str]) -> Result<String, ToolError> {
     let mut digest = Sha256::new();
     for folder in folders {
         for path in files(&root.join(folder))? {
@@ -243,14 +243,14 @@ fn is_test(attribute: &syn::Attribute) -> bool {
 }
 
 /// The Rust files of a folder, in order.
-fn files(folder: &Path) -> Result<Vec<PathBuf>, ProveError> {
+fn files(folder: &Path) -> Result<Vec<PathBuf>, ToolError> {
     let mut files = Vec::new();
     collect(folder, &mut files)?;
     files.sort();
     Ok(files)
 }
 
-fn collect(folder: &Path, files: &mut Vec<PathBuf>) -> Result<(), ProveError> {
+fn collect(folder: &Path, files: &mut Vec<PathBuf>) -> Result<(), ToolError> {
     let error = |error| file(folder, error);
     for entry in fs::read_dir(folder).map_err(error)? {
         let path = entry.map_err(error)?.path();

@@ -35,7 +35,7 @@ mod text;
 use std::path::{Path, PathBuf};
 
 use crate::analysis::{Analysis, AnalysisError, load};
-use crate::prove::ProveError;
+use crate::error::ToolError;
 
 pub use finding::{Finding, Rule};
 pub use json::json;
@@ -76,7 +76,7 @@ pub enum TraceError {
     Analysis(#[from] AnalysisError),
     /// The list of harnesses or the record of the proofs cannot be read.
     #[error(transparent)]
-    Proofs(#[from] ProveError),
+    Proofs(#[from] ToolError),
 }
 
 /// The traced project.

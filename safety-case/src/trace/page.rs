@@ -1,15 +1,13 @@
 //! The table as a page that works offline.
 
-use minijinja::value::Serde;
-use minijinja::{AutoEscape, Environment};
 use serde_json::{Value, json};
 
 use super::scan::Place;
 use super::table::{Row, Status, Summary};
 use super::{Trace, text};
+use crate::template::render;
 
 const PAGE: &str = include_str!("../../templates/trace.html");
-const STYLE: &str = include_str!("../../templates/style.css");
 const SCRIPT: &str = include_str!("../../templates/trace.js");
 
 /// The page as one HTML file.
@@ -31,17 +29,12 @@ pub fn page(trace: &Trace) -> Result<String, minijinja::Error> {
         {"label": "findings", "value": trace.findings.len(), "class": findings},
     ]);
     let context = json!({
-        "version": env!("CARGO_PKG_VERSION"),
         "cards": cards,
         "rows": trace.rows.iter().map(row).collect::<Vec<_>>(),
         "findings": trace.findings,
-        "style": STYLE,
         "script": SCRIPT,
     });
-    let mut environment = Environment::new();
-    environment.set_auto_escape_callback(|_| AutoEscape::Html);
-    environment.add_template("trace", PAGE)?;
-    environment.get_template("trace")?.render(Serde(context))
+    render(PAGE, context)
 }
 
 fn row(row: &Row) -> Value {

@@ -1,28 +1,12 @@
 //! The correct drives into which faults are injected: those that ship, and some more.
 
-use supervisor::{EpbSwitch, Gear, Key};
+use supervisor::Gear;
 
 use crate::catalogue;
 use crate::drive::Scenario;
-use crate::driver::{Act, Script};
+use crate::driver::{Act, Script, after_start};
 use crate::plant::Parameters;
 use crate::road::Obstacle;
-
-/// Ten seconds from key-on to a bus that is ready to go.
-macro_rules! after_start {
-    ($($act:expr,)*) => {
-        &[
-            (5000, Act::Key(Key::Start)),
-            (5500, Act::Key(Key::On)),
-            (6500, Act::Brake(0.4)),
-            (7000, Act::Selector(Gear::Drive)),
-            (8000, Act::EpbSwitch(EpbSwitch::Release)),
-            (9500, Act::EpbSwitch(EpbSwitch::Idle)),
-            (10_000, Act::Brake(0.0)),
-            $($act,)*
-        ]
-    };
-}
 
 /// From stop to stop.
 const STOP_AND_GO: Script<'static> = after_start![

@@ -8,9 +8,10 @@ use std::time::Duration;
 
 use super::{FINDINGS, NOT_RUN, Outcome, print};
 use crate::cli::Prove;
+use crate::error::ToolError;
 use crate::prove::{
-    Harness, List, Options, Place, Present, ProveError, Record, Sources, State, available, block, configuration_digest,
-    declared, default_configuration, differences, replaced, table,
+    Harness, List, Options, Place, Present, Record, Sources, State, available, block, configuration_digest, declared,
+    default_configuration, differences, replaced, table,
 };
 
 /// Where the table stands.
@@ -62,7 +63,7 @@ impl Gate {
     fn new(arguments: &Prove) -> Result<Self, Box<dyn std::error::Error>> {
         let own = Path::new(env!("CARGO_MANIFEST_DIR")).parent().ok_or("the workspace has no folder")?;
         let root = arguments.root.as_deref().unwrap_or(own);
-        let root = root.canonicalize().map_err(|error| ProveError::File { path: root.to_owned(), error })?;
+        let root = root.canonicalize().map_err(|error| ToolError::File { path: root.to_owned(), error })?;
         let target =
             std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root.join("target"), |folder| root.join(folder));
         let mut gate = Self {
@@ -94,7 +95,7 @@ impl Gate {
 
     /// Only what multiplies by configured numbers, for the sealed configuration at `path`; the record stands beside it.
     fn configure(&mut self, path: &Path) -> Result<(), Box<dyn std::error::Error>> {
-        let path = path.canonicalize().map_err(|error| ProveError::File { path: path.to_owned(), error })?;
+        let path = path.canonicalize().map_err(|error| ToolError::File { path: path.to_owned(), error })?;
         let sealed = super::config::read(&path)?;
         self.present.configuration = configuration_digest(&sealed.to_bytes());
         let beside = |ending: &str| {
@@ -113,7 +114,7 @@ impl Gate {
         Ok(())
     }
 
-    fn record(&self) -> Result<Record, ProveError> {
+    fn record(&self) -> Result<Record, ToolError> {
         Record::load(&self.place.record)
     }
 
@@ -142,7 +143,7 @@ impl Gate {
         };
         record.adopt(&self.list);
         record.save(&self.place.record)?;
-        let failed = |error| ProveError::File { path: path.to_owned(), error };
+        let failed = |error| ToolError::File { path: path.to_owned(), error };
         let text = fs::read_to_string(path).map_err(failed)?;
         let text = replaced(&text, &block(&self.list, &record));
         let text = text.ok_or_else(|| format!("{}: no place for the table", path.display()))?;
@@ -193,7 +194,7 @@ impl Gate {
     }
 
     /// Where list, sources, record and table do not say the same.
-    fn disagreements(&self, record: &Record, with_table: bool) -> Result<Vec<String>, ProveError> {
+    fn disagreements(&self, record: &Record, with_table: bool) -> Result<Vec<String>, ToolError> {
         let mut lines = differences(&self.list, &declared(&self.root)?);
         let mut adopted = record.clone();
         adopted.adopt(&self.list);

@@ -6,9 +6,10 @@ use std::io;
 use std::thread;
 
 use super::{FINDINGS, Gate, Outcome, print};
+use crate::error::ToolError;
 use crate::prove::{
-    Harness, Outcome as Ran, Progress, Proof, ProveError, Quick, RECORD, Record, Sources, State, Verdict, Workers,
-    compile, differences, named, ordered, playback, quick, shard,
+    Harness, Outcome as Ran, Progress, Proof, Quick, RECORD, Record, Sources, State, Verdict, Workers, compile,
+    differences, named, ordered, playback, quick, shard,
 };
 
 impl Gate {
@@ -45,7 +46,7 @@ impl Gate {
             })?;
             if let Some(list) = list {
                 let known =
-                    list.join().map_err(|_| ProveError::Arguments("the compilation of all broke off".to_owned()))?;
+                    list.join().map_err(|_| ToolError::Arguments("the compilation of all broke off".to_owned()))?;
                 bad = bad.saturating_add(self.compared(&known?)?);
             }
             Ok::<(), Box<dyn std::error::Error>>(())
@@ -114,7 +115,7 @@ impl Gate {
             }
             let path = self.target.join(format!("{}-playback.rs", harness.name));
             let text = format!("{}{}\n", how_to(harness), tests.join("\n\n"));
-            fs::write(&path, text).map_err(|error| ProveError::File { path: path.clone(), error })?;
+            fs::write(&path, text).map_err(|error| ToolError::File { path: path.clone(), error })?;
             print(format_args!("{}: {} in {}\n", harness.name, counted(tests.len(), "test"), path.display()))?;
         }
         print(format_args!("{} with a counterexample looked for\n", counted(chosen.len(), "harness")))?;
@@ -139,9 +140,9 @@ impl Gate {
     }
 
     /// Puts it into the record, with its raw result.
-    fn keep(&self, record: &mut Record, harness: &Harness, ran: Ran) -> Result<(), ProveError> {
+    fn keep(&self, record: &mut Record, harness: &Harness, ran: Ran) -> Result<(), ToolError> {
         if Sources::load(&self.root)? != self.present.sources {
-            return Err(ProveError::Arguments(
+            return Err(ToolError::Arguments(
                 "the sources changed while the proofs ran: nothing more is recorded".to_owned(),
             ));
         }
@@ -166,7 +167,7 @@ impl Gate {
     }
 }
 
-fn told(harness: &Harness, ran: &Ran, progress: &Progress) -> Result<(), ProveError> {
+fn told(harness: &Harness, ran: &Ran, progress: &Progress) -> Result<(), ToolError> {
     let Ran { verdict, checks, covers, seconds, solver, .. } = ran;
     line(
         progress,
@@ -180,10 +181,10 @@ fn told(harness: &Harness, ran: &Ran, progress: &Progress) -> Result<(), ProveEr
     }
 }
 
-fn line(progress: &Progress, text: &str) -> Result<(), ProveError> {
+fn line(progress: &Progress, text: &str) -> Result<(), ToolError> {
     let (done, all) = progress.count();
     let said = progress.aside(|| print(format_args!("[{done}/{all}] {text}; {}\n", progress.times())));
-    said.map_err(|error| ProveError::File { path: "standard output".into(), error })
+    said.map_err(|error| ToolError::File { path: "standard output".into(), error })
 }
 
 fn counted(count: usize, what: &str) -> String {

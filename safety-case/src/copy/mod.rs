@@ -1,15 +1,21 @@
-//! A small copy of the workspace, in which a mistake is planted: the sources themselves are never touched.
+//! A copy of the workspace, in which sources are changed: the sources themselves are never touched.
+
+mod programs;
+
+pub use programs::{Message, Program, Said, Span, cargo, errors, programs};
 
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use super::change::Change;
-use crate::prove::ProveError;
+use crate::error::{ToolError, file as failed, form, read};
+use crate::mistakes::Change;
 
 /// What the proofs are built from. Members of the workspace outside of it are left out of the copy's manifest.
 const FOLDERS: [&str; 2] = ["supervisor", "proofs"];
+/// What the tests of the step are built from; they read the corpus of the fuzzers.
+pub const WITH_TESTS: [&str; 4] = ["supervisor", "proofs", "tests", "fuzz"];
 /// What in there is none of it: workspaces of their own, builds, and recorded results.
 const OTHERS: [&str; 3] = ["creusot", "target", "results"];
 
@@ -22,16 +28,12 @@ pub struct Copy {
     target: PathBuf,
 }
 
-fn failed(path: &Path, error: std::io::Error) -> ProveError {
-    ProveError::File { path: path.to_owned(), error }
-}
-
 impl Copy {
     /// A copy in this folder, which need not exist; what is built of it goes beside it.
     ///
     /// # Errors
     /// It cannot be written.
-    pub fn new(original: &Path, folder: &Path) -> Result<Self, ProveError> {
+    pub fn new(original: &Path, folder: &Path) -> Result<Self, ToolError> {
         let copy = Self::of(&FOLDERS, original, folder)?;
         copy.restore()?;
         Ok(copy)
@@ -41,7 +43,7 @@ impl Copy {
     ///
     /// # Errors
     /// The folder for what is built cannot be made.
-    pub fn of(folders: &'static [&'static str], original: &Path, folder: &Path) -> Result<Self, ProveError> {
+    pub fn of(folders: &'static [&'static str], original: &Path, folder: &Path) -> Result<Self, ToolError> {
         let (root, target) = (folder.join("copy"), folder.join("build"));
         fs::create_dir_all(&target).map_err(|error| failed(&target, error))?;
         Ok(Self { folders, original: original.to_owned(), root, target })
@@ -64,7 +66,7 @@ impl Copy {
     ///
     /// # Errors
     /// A file cannot be read or written.
-    pub fn restore(&self) -> Result<(), ProveError> {
+    pub fn restore(&self) -> Result<(), ToolError> {
         self.restore_with(&BTreeMap::new())
     }
 
@@ -72,7 +74,7 @@ impl Copy {
     ///
     /// # Errors
     /// A file cannot be read or written.
-    pub fn restore_with(&self, changed: &BTreeMap<PathBuf, String>) -> Result<(), ProveError> {
+    pub fn restore_with(&self, changed: &BTreeMap<PathBuf, String>) -> Result<(), ToolError> {
         let mut wanted = HashSet::new();
         for (file, text) in changed {
             self.put(file, text.as_bytes())?;
@@ -99,7 +101,7 @@ impl Copy {
     ///
     /// # Errors
     /// A file cannot be read or written.
-    pub fn plant(&self, change: &Change) -> Result<(), ProveError> {
+    pub fn plant(&self, change: &Change) -> Result<(), ToolError> {
         self.restore()?;
         self.put(Path::new(&change.file), change.text.as_bytes())
     }
@@ -108,17 +110,17 @@ impl Copy {
     ///
     /// # Errors
     /// cargo does not start.
-    pub fn compiles(&self, package: &str) -> Result<Result<(), String>, ProveError> {
+    pub fn compiles(&self, package: &str) -> Result<Result<(), String>, ToolError> {
         let mut command = Command::new("cargo");
         command.current_dir(&self.root).args(["check", "--quiet", "--lib", "-p", package, "--target-dir"]);
         command.arg(self.target.join("check")).stdin(Stdio::null());
-        let done = command.output().map_err(ProveError::Tool)?;
+        let done = command.output().map_err(ToolError::start("cargo"))?;
         let said = String::from_utf8_lossy(&done.stderr);
         let first = said.lines().find(|line| line.starts_with("error")).unwrap_or("error without a word");
         Ok(if done.status.success() { Ok(()) } else { Err(first.to_owned()) })
     }
 
-    fn put(&self, file: &Path, text: &[u8]) -> Result<(), ProveError> {
+    fn put(&self, file: &Path, text: &[u8]) -> Result<(), ToolError> {
         let path = self.root.join(file);
         if fs::read(&path).is_ok_and(|present| present == text) {
             return Ok(());
@@ -132,7 +134,7 @@ impl Copy {
         folder: &Path,
         changed: &BTreeMap<PathBuf, String>,
         wanted: &mut HashSet<PathBuf>,
-    ) -> Result<(), ProveError> {
+    ) -> Result<(), ToolError> {
         let from = self.original.join(folder);
         for entry in fs::read_dir(&from).map_err(|error| failed(&from, error))? {
             let entry = entry.map_err(|error| failed(&from, error))?;
@@ -151,23 +153,40 @@ impl Copy {
     }
 
     /// The manifest of the workspace with the members that are copied.
-    fn manifest(&self, new: &BTreeSet<&str>) -> Result<String, ProveError> {
+    fn manifest(&self, new: &BTreeSet<&str>) -> Result<String, ToolError> {
         let path = self.original.join("Cargo.toml");
-        let form = |message: String| ProveError::Form { path: path.clone(), message };
-        let text = fs::read_to_string(&path).map_err(|error| failed(&path, error))?;
-        let mut manifest: toml::Table = text.parse().map_err(|error: toml::de::Error| form(error.to_string()))?;
+        let mut manifest = table(&path)?;
         let members = manifest.get_mut("workspace").and_then(|workspace| workspace.get_mut("members"));
-        let members =
-            members.and_then(toml::Value::as_array_mut).ok_or_else(|| form("it has no members".to_owned()))?;
+        let members = members.and_then(toml::Value::as_array_mut).ok_or_else(|| form(&path, &"it has no members"))?;
         let copied = |member: &str| self.folders.iter().any(|folder| Path::new(member).starts_with(folder));
         members.retain(|member| member.as_str().is_some_and(copied));
         members.extend(new.iter().map(|folder| toml::Value::from(*folder)));
-        toml::to_string(&manifest).map_err(|error| form(error.to_string()))
+        toml::to_string(&manifest).map_err(|error| form(&path, &error))
     }
 }
 
+fn table(path: &Path) -> Result<toml::Table, ToolError> {
+    read(path)?.parse().map_err(|error: toml::de::Error| form(path, &error))
+}
+
+/// The manifest of a package two folders below the root, with a dependency on a package that stands right there.
+///
+/// # Errors
+/// It cannot be read, or is no manifest.
+pub fn with_dependency(root: &Path, package: &str, on: &str) -> Result<(PathBuf, String), ToolError> {
+    let file = Path::new(package).join("Cargo.toml");
+    let path = root.join(&file);
+    let mut manifest = table(&path)?;
+    let needs = manifest.entry("dependencies").or_insert_with(|| toml::Value::Table(toml::Table::new()));
+    let place = toml::Table::from_iter([("path".to_owned(), toml::Value::from(format!("../../{on}")))]);
+    if let Some(needs) = needs.as_table_mut() {
+        needs.insert(on.to_owned(), toml::Value::Table(place));
+    }
+    Ok((file, toml::to_string(&manifest).map_err(|error| form(&path, &error))?))
+}
+
 /// Removes what is no longer in the original.
-fn sweep(folder: &Path, wanted: &HashSet<PathBuf>) -> Result<(), ProveError> {
+fn sweep(folder: &Path, wanted: &HashSet<PathBuf>) -> Result<(), ToolError> {
     for entry in fs::read_dir(folder).map_err(|error| failed(folder, error))? {
         let path = entry.map_err(|error| failed(folder, error))?.path();
         if path.is_dir() {
@@ -184,7 +203,8 @@ mod tests {
     use std::fs;
     use std::path::Path;
 
-    use super::{Change, Copy};
+    use super::Copy;
+    use crate::mistakes::Change;
 
     fn write(root: &Path, file: &str, text: &str) {
         let path = root.join(file);
