@@ -1,6 +1,7 @@
 //! The command line.
 
 mod coverage;
+mod fuzz;
 mod inject;
 mod mutants;
 
@@ -10,6 +11,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use supervisor::{Record, ResetCause};
 
 pub use coverage::Coverage;
+pub use fuzz::Fuzz;
 pub use inject::Inject;
 pub use mutants::Mutants;
 
@@ -36,6 +38,7 @@ Examples:
   supervise inject --html target/inject.html         faults in correct drives, and what becomes of the bus
   supervise trace --html target/trace.html           which code, proof and test belongs to which requirement
   supervise coverage --html target/coverage.html     which statements, branches and conditions the tests reach
+  supervise fuzz --seconds 600                       fuzz every target for ten minutes
 
 Exit codes: 0 done; 1 the analysis or the traceability has findings, a harness is not proved, or a bar of the design is not
 met; 2 bad arguments, files, mapping or configuration; 3 with --fail-on-intervention, if the supervisor intervened;
@@ -170,6 +173,9 @@ pub enum Command {
     /// caught by a proof on the present sources, or a drawn one survives without an explanation; with 4 if cargo kani
     /// (or, for --drawn, cargo mutants) is not installed: nothing was run.
     Mistakes(Mistakes),
+    /// Fuzz every target for a while, and keep the record of what was tried
+    #[command(long_about = fuzz::ABOUT)]
+    Fuzz(Fuzz),
     /// Test the tests: run them once for every mutant of the shipped crates
     #[command(long_about = mutants::ABOUT)]
     Mutants(Mutants),

@@ -19,6 +19,7 @@ pub mod difference;
 pub mod digest;
 pub mod document;
 pub mod error;
+pub mod fuzz;
 pub mod grid;
 pub mod inject;
 pub mod lanes;

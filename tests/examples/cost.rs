@@ -152,6 +152,16 @@ fn full_lists() -> Scene {
     scene
 }
 
+/// How the step grows with what the radar sees: so many objects, near and closing, all different.
+fn growing(objects: usize, sealed: &Sealed) {
+    let mut bus = Bus::driving(kmh(50));
+    let full = full_lists();
+    bus.scene.radar = full.radar.iter().take(objects).copied().collect();
+    let Meets { image, sealed, now, inputs, scene, commands } = black_box(Meets::of(&bus, sealed));
+    let mut supervisor = Supervisor::new(sealed, ResetCause::PowerOn, Some(Record::None)).with_image(image);
+    stage(&format!("{objects} radar objects"), "whole step", || supervisor.step(now, &inputs, &scene, &commands));
+}
+
 /// The link: every frame of a busy second, the sample of every cycle, everything that is sent.
 fn link(scenario: &str, bus: &Bus, sealed: &Sealed) {
     let mut supervisor = Supervisor::new(*sealed, ResetCause::PowerOn, Some(Record::None));
@@ -214,6 +224,9 @@ fn main() {
     ];
     for (name, bus) in &scenarios {
         stages(name, &Meets::of(bus, &sealed));
+    }
+    for objects in [0, 1, 2, 4, 8, 16, 32] {
+        growing(objects, &sealed);
     }
     if time {
         return;

@@ -1,40 +1,56 @@
 //! What a corpus reaches: modes, and why commands were passed, limited, substituted and blocked.
 
 use std::collections::BTreeSet;
-use std::fmt::Debug;
 
 use crate::common::{
     Channel, Decision, DrivingMode, ExitReason, Kind, Level, Mode, Occupancy, Reason, Record, Stage, Status, Verdicts,
 };
+
+/// A mode that was reached. Kept as a value, not as text: this is looked at in every cycle that is fuzzed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Place {
+    Occupancy(Occupancy),
+    Shutdown(Stage),
+    Mitigation(Level),
+    Mode(Mode),
+    Exit(ExitReason),
+    Record(Record),
+    ModeOutput(DrivingMode),
+    SafeState(bool),
+    ParkedByLeave(bool),
+}
+
+/// A verdict without its numbers.
+type Given = (Channel, Kind, Reason);
 
 /// What was seen so far.
 #[derive(Clone, Debug, Default)]
 pub struct Reached {
     /// Cycles that were vetted and judged.
     pub cycles: u64,
-    modes: BTreeSet<String>,
+    modes: BTreeSet<Place>,
     reasons: BTreeSet<Reason>,
-    verdicts: BTreeSet<(Channel, Kind, Reason)>,
-}
-
-/// A mode as it is printed.
-fn named(group: &str, mode: impl Debug) -> String {
-    format!("{group} {mode:?}")
+    verdicts: BTreeSet<Given>,
+    /// Where the cycle before was: what stays reaches nothing new.
+    last: Option<([Place; 9], Vec<Given>)>,
 }
 
 /// Every mode there is.
-fn modes() -> BTreeSet<String> {
-    let occupancy = [Occupancy::NotConfirmed, Occupancy::Confirmed, Occupancy::Leave];
-    let mut all: BTreeSet<String> = occupancy.iter().map(|mode| named("occupancy", mode)).collect();
-    all.extend(Stage::ALL.iter().map(|mode| named("shutdown", mode)));
-    all.extend(Level::ALL.iter().map(|mode| named("mitigation", mode)));
-    all.extend(Mode::ALL.iter().map(|mode| named("mode", mode)));
-    all.extend(ExitReason::ALL.iter().map(|mode| named("exit", mode)));
-    all.extend(Record::ALL.iter().map(|mode| named("record", mode)));
-    all.extend(DrivingMode::ALL.iter().map(|mode| named("mode output", mode)));
-    all.extend([false, true].map(|safe| named("safe state", safe)));
-    all.extend([false, true].map(|parked| named("parked by leave", parked)));
-    all
+fn modes() -> BTreeSet<Place> {
+    fn all<T: Copy>(values: &[T], place: fn(T) -> Place) -> impl Iterator<Item = Place> {
+        values.iter().map(move |value| place(*value))
+    }
+    let both = [false, true];
+    all(Occupancy::ALL, Place::Occupancy)
+        .chain(all(Stage::ALL, Place::Shutdown))
+        .chain(all(Level::ALL, Place::Mitigation))
+        .chain(all(Mode::ALL, Place::Mode))
+        .chain(all(ExitReason::ALL, Place::Exit))
+        .chain(all(Record::ALL, Place::Record))
+        .chain(all(DrivingMode::ALL, Place::ModeOutput))
+        .chain(all(&both, Place::SafeState))
+        .chain(all(&both, Place::ParkedByLeave))
+        .collect()
 }
 
 impl Reached {
@@ -46,22 +62,25 @@ impl Reached {
     /// The same of what was kept of a cycle.
     pub fn look_at(&mut self, status: &Status, verdicts: &Verdicts, mode: DrivingMode) {
         self.cycles += 1;
-        let seen = [
-            named("occupancy", status.occupancy),
-            named("shutdown", status.stage),
-            named("mitigation", status.level),
-            named("mode", status.mode),
-            named("exit", status.exit),
-            named("record", status.record),
-            named("mode output", mode),
-            named("safe state", status.safe_state),
-            named("parked by leave", status.parked_by_leave),
+        let places = [
+            Place::Occupancy(status.occupancy),
+            Place::Shutdown(status.stage),
+            Place::Mitigation(status.level),
+            Place::Mode(status.mode),
+            Place::Exit(status.exit),
+            Place::Record(status.record),
+            Place::ModeOutput(mode),
+            Place::SafeState(status.safe_state),
+            Place::ParkedByLeave(status.parked_by_leave),
         ];
-        self.modes.extend(seen);
-        for (channel, verdict) in verdicts.iter() {
-            self.reasons.insert(verdict.reason);
-            self.verdicts.insert((channel, verdict.kind, verdict.reason));
+        let given = || verdicts.iter().map(|(channel, verdict)| (channel, verdict.kind, verdict.reason));
+        if self.last.as_ref().is_some_and(|(before, said)| *before == places && given().eq(said.iter().copied())) {
+            return;
         }
+        self.modes.extend(places);
+        self.reasons.extend(given().map(|(_, _, reason)| reason));
+        self.verdicts.extend(given());
+        self.last = Some((places, given().collect()));
     }
 
     /// How many different modes and verdicts were seen.
@@ -73,7 +92,7 @@ impl Reached {
     /// The modes that were not reached.
     #[must_use]
     pub fn modes_missing(&self) -> Vec<String> {
-        modes().difference(&self.modes).cloned().collect()
+        modes().difference(&self.modes).map(|place| format!("{place:?}")).collect()
     }
 
     /// The reason codes that no verdict gave.

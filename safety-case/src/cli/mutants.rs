@@ -7,7 +7,8 @@ use super::part;
 pub(super) const ABOUT: &str = "\
 Tests the tests: runs them once for every mutant that cargo-mutants lists of the shipped crates (an operator, a guard, a body,
 a field changed). All mutants are built once, each behind a switch, into target/mutants; then the test programs of the packages
-supervisor-tests and supervisor-proofs run for each mutant, those first that catch most in the least time, until one fails.
+supervisor-tests and supervisor-proofs run for each mutant, those first that catch most in the least time, until one fails. A
+program in which a mutant makes no difference where it stands is not run for it: it would run as it does without.
 Nothing but tests counts here; what the proofs catch is `supervise mistakes`.
 
 A test program that takes longer than 20 s, or does not pass without a mutant, is left out, and told. A mutant that no test

@@ -11,6 +11,7 @@ use crate::cost::{
     CostError, Difference, Row, Size, Tools, bar, block, differences, has, main_rows, markdown, measure, replaced,
     retained, rows, sizes,
 };
+use crate::prove::shipped;
 
 /// The target beside this machine.
 const TARGET: &str = "thumbv7em-none-eabihf";
@@ -36,7 +37,8 @@ pub(super) fn run(arguments: &Cost) -> Outcome {
     let text = document(&rows, &code, &measured.nanoseconds, &compiler);
     let folder = root.join("target");
     write(&folder, "cost.md", &text)?;
-    write(&folder, "cost.json", &format!("{:#}\n", data(&rows, &code, &measured.nanoseconds, &compiler)))?;
+    let sources = shipped(root)?;
+    write(&folder, "cost.json", &format!("{:#}\n", data(&rows, &code, &measured.nanoseconds, &compiler, &sources)))?;
     print(&text)?;
 
     let mut bad = 0_usize;
@@ -56,6 +58,9 @@ pub(super) fn run(arguments: &Cost) -> Outcome {
         let block = block(&shown, &compiler, &text);
         let text = replaced(&text, &block).ok_or_else(|| format!("{}: no place for the rows", path.display()))?;
         fs::write(path, text).map_err(|error| CostError::File { path: path.clone(), error })?;
+        // Times hold for one machine only: the record goes without them.
+        let record = format!("{:#}\n", data(&rows, &code, &[], &compiler, &sources));
+        write(&root.join("safety-case/records"), "cost.json", &record)?;
     }
     if let Some(path) = &arguments.check {
         for difference in differences(&read(path)?, &shown, &compiler) {
@@ -100,9 +105,17 @@ fn document(rows: &[Row], code: &[(String, Vec<Size>)], times: &[(String, f64)],
         "No bound on the worst case.".to_owned(),
         String::new(),
         markdown(rows),
-        "## Time on this machine: cheapest batch of the dearest scenario, ns per call (not checked)".to_owned(),
+        "## How the whole step grows".to_owned(),
         String::new(),
     ];
+    let whole = rows.iter().filter(|row| row.stage == "whole step");
+    let growth: Vec<_> = whole.flat_map(Row::growth).collect();
+    lines.extend(growth.iter().map(|(objects, count)| format!("- {objects} radar objects: {count}")));
+    lines.extend([
+        String::new(),
+        "## Time on this machine: cheapest batch of the dearest scenario, ns per call (not checked)".to_owned(),
+        String::new(),
+    ]);
     lines.extend(times.iter().map(|(stage, time)| format!("- {stage}: {time:.1}")));
     lines.extend(["", "## Retained, bytes on this machine", ""].map(str::to_owned));
     lines.extend(retained().iter().map(|(what, bytes)| format!("- {what}: {bytes}")));
@@ -116,13 +129,22 @@ fn document(rows: &[Row], code: &[(String, Vec<Size>)], times: &[(String, f64)],
     lines.join("\n")
 }
 
-fn data(rows: &[Row], code: &[(String, Vec<Size>)], times: &[(String, f64)], compiler: &str) -> serde_json::Value {
+fn data(
+    rows: &[Row],
+    code: &[(String, Vec<Size>)],
+    times: &[(String, f64)],
+    compiler: &str,
+    sources: &str,
+) -> serde_json::Value {
     let stages: Vec<_> = rows
         .iter()
         .map(|row| {
             let scenarios: serde_json::Map<_, _> =
                 row.scenarios.iter().map(|(name, count)| (name.clone(), json!(count))).collect();
-            json!({"stage": row.stage, "bar": bar(&row.stage), "greatest": row.greatest(), "scenarios": scenarios})
+            json!({
+                "stage": row.stage, "bar": bar(&row.stage), "greatest": row.greatest(), "median": row.median(),
+                "scenarios": scenarios
+            })
         })
         .collect();
     let code: Vec<_> = code
@@ -134,7 +156,8 @@ fn data(rows: &[Row], code: &[(String, Vec<Size>)], times: &[(String, f64)], com
         .collect();
     let named = |(name, value): &(String, f64)| (name.clone(), json!(value));
     json!({
-        "schema": "supervise-cost", "version": 1, "compiler": compiler, "unit": "instructions", "stages": stages,
+        "schema": "supervise-cost", "version": 1, "sources": sources, "compiler": compiler,
+        "unit": "instructions", "stages": stages,
         "nanoseconds": times.iter().map(named).collect::<serde_json::Map<_, _>>(),
         "retained": retained().iter().map(|(name, bytes)| ((*name).to_owned(), json!(bytes))).collect::<serde_json::Map<_, _>>(),
         "code": code,

@@ -5,6 +5,7 @@ mod config;
 mod cost;
 mod coverage;
 mod drives;
+mod fuzz;
 mod inject;
 mod limits;
 mod mistakes;
@@ -44,6 +45,7 @@ pub fn run(cli: &Cli) -> ExitCode {
         Some(Command::Analysis(arguments)) => analysis::run(arguments),
         Some(Command::Prove(arguments)) => prove::run(arguments),
         Some(Command::Mistakes(arguments)) => mistakes::run(arguments),
+        Some(Command::Fuzz(arguments)) => fuzz::run(arguments),
         Some(Command::Mutants(arguments)) => mutants::run(arguments),
         Some(Command::Trace(arguments)) => trace::run(arguments),
         Some(Command::Cost(arguments)) => cost::run(arguments),

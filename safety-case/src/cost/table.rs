@@ -8,6 +8,10 @@ const NOTHING: &str = "nothing";
 const CORE: [&str; 2] = ["decide", "vet"];
 /// Their sum, in the same cycle.
 const SUM: &str = "decide + vet";
+/// The scenario of random cycles.
+pub(super) const RANDOM: &str = "random";
+/// How the scenarios end that show how the step grows with its objects.
+pub(super) const GROWING: &str = " radar objects";
 
 /// One measured call.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -27,6 +31,8 @@ pub struct Row {
     pub stage: String,
     /// The greatest count of each scenario, in the order in which they ran.
     pub scenarios: Vec<(String, u64)>,
+    /// The counts of the random cycles, in order of size.
+    random: Vec<u64>,
 }
 
 impl Row {
@@ -34,6 +40,17 @@ impl Row {
     #[must_use]
     pub fn greatest(&self) -> u64 {
         self.scenarios.iter().map(|(_, count)| *count).max().unwrap_or(0)
+    }
+
+    /// The median of the random cycles, if there were any.
+    #[must_use]
+    pub fn median(&self) -> Option<u64> {
+        self.random.get(self.random.len() / 2).copied()
+    }
+
+    /// How it grows: the number of objects, and the count.
+    pub fn growth(&self) -> impl Iterator<Item = (&str, u64)> {
+        self.scenarios.iter().filter_map(|(name, count)| Some((name.strip_suffix(GROWING)?, *count)))
     }
 }
 
@@ -87,10 +104,14 @@ pub fn rows(calls: &[Call]) -> Vec<Row> {
 
 fn note(rows: &mut Vec<Row>, stage: &str, scenario: &str, count: u64) {
     let place = rows.iter().position(|row| row.stage == stage).unwrap_or_else(|| {
-        rows.push(Row { stage: stage.to_owned(), scenarios: Vec::new() });
+        rows.push(Row { stage: stage.to_owned(), scenarios: Vec::new(), random: Vec::new() });
         rows.len().saturating_sub(1)
     });
     let Some(row) = rows.get_mut(place) else { return };
+    if scenario == RANDOM {
+        let at = row.random.partition_point(|present| *present < count);
+        row.random.insert(at, count);
+    }
     match row.scenarios.iter_mut().find(|(name, _)| name == scenario) {
         Some((_, greatest)) => *greatest = count.max(*greatest),
         None => row.scenarios.push((scenario.to_owned(), count)),
@@ -102,19 +123,19 @@ fn note(rows: &mut Vec<Row>, stage: &str, scenario: &str, count: u64) {
 pub fn markdown(rows: &[Row]) -> String {
     let mut scenarios: Vec<&str> = Vec::new();
     for (name, _) in rows.iter().flat_map(|row| &row.scenarios) {
-        if !scenarios.contains(&name.as_str()) {
+        if !scenarios.contains(&name.as_str()) && !name.ends_with(GROWING) {
             scenarios.push(name);
         }
     }
     let line = |cells: &[String]| format!("| {} |\n", cells.join(" | "));
-    let mut head = ["stage", "bar", "greatest"].map(str::to_owned).to_vec();
+    let mut head = ["stage", "bar", "greatest", "median of random"].map(str::to_owned).to_vec();
     head.extend(scenarios.iter().map(|name| (*name).to_owned()));
     let mut text = line(&head);
     text.push_str(&"|---".repeat(head.len()));
     text.push_str("|\n");
     let cell = |count: Option<u64>| count.map_or_else(|| "–".to_owned(), |count| count.to_string());
     for row in rows {
-        let mut cells = vec![row.stage.clone(), cell(bar(&row.stage)), row.greatest().to_string()];
+        let mut cells = vec![row.stage.clone(), cell(bar(&row.stage)), row.greatest().to_string(), cell(row.median())];
         let of = |name: &str| row.scenarios.iter().find(|(scenario, _)| scenario == name).map(|(_, count)| *count);
         cells.extend(scenarios.iter().map(|name| cell(of(name))));
         text.push_str(&line(&cells));
@@ -137,7 +158,18 @@ mod tests {
         // Not 290: that decide and that vet were not of one cycle.
         assert_eq!(named("decide + vet"), Some(220));
         assert_eq!(named("nothing"), None);
-        assert!(markdown(&rows).contains("| decide + vet | 6000 | 220 | 110 | 220 |"), "{}", markdown(&rows));
+        assert!(markdown(&rows).contains("| decide + vet | 6000 | 220 | – | 110 | 220 |"), "{}", markdown(&rows));
+        Ok(())
+    }
+
+    #[test]
+    fn the_median_is_of_the_random_cycles_and_growth_stands_apart() -> Result<(), super::CostError> {
+        let labels = "random\tstep\nrandom\tstep\nrandom\tstep\n2 radar objects\tstep\n";
+        let rows = rows(&calls(labels, &[30, 10, 20, 99])?);
+        let Some(row) = rows.first() else { unreachable!("there is a row") };
+        assert_eq!((row.median(), row.greatest()), (Some(20), 99));
+        assert_eq!(row.growth().collect::<Vec<_>>(), [("2", 99)]);
+        assert!(!markdown(&rows).contains("objects"));
         Ok(())
     }
 

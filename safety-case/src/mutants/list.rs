@@ -8,13 +8,13 @@ use super::switch::Mutant;
 use crate::error::ToolError;
 use crate::mistakes::{Listed, listed};
 
-/// The crates that are mutated: what decides, sees and speaks. (`report` only tells.)
+/// The crates that are mutated: what decides first, then what sees, speaks and observes, and the vocabulary. (`report` only tells.)
 pub const PACKAGES: [(&str, &str); 5] = [
-    ("supervisor-terms", "supervisor/terms"),
-    ("supervisor-observe", "supervisor/observe"),
     ("supervisor-core", "supervisor/core"),
     ("supervisor-perceive", "supervisor/perceive"),
     ("supervisor-wire", "supervisor/wire"),
+    ("supervisor-observe", "supervisor/observe"),
+    ("supervisor-terms", "supervisor/terms"),
 ];
 
 /// Where the explanations stand.

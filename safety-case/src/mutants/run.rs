@@ -1,5 +1,7 @@
 //! Runs the tests once for each mutant.
 
+use std::collections::BTreeSet;
+use std::ffi::OsStr;
 use std::path::Path;
 use std::process::Stdio;
 use std::sync::mpsc::channel;
@@ -10,7 +12,7 @@ use super::build::built;
 use super::list::every;
 use super::record::{Entry, Outcome, Record};
 use crate::copy::Program;
-use crate::error::ToolError;
+use crate::error::{ToolError, read, write};
 use crate::mistakes::Shard;
 use crate::prove::shipped;
 
@@ -44,6 +46,8 @@ struct Test {
     takes: Duration,
     /// How many mutants it has caught.
     caught: u32,
+    /// The mutants that make a difference in it where they stand, or may: no other can be caught by it.
+    meets: BTreeSet<u32>,
 }
 
 impl Test {
@@ -51,11 +55,11 @@ impl Test {
         format!("{}/{}", self.program.package, self.program.name)
     }
 
-    /// Whether it passes, with a mutant or without one. One that does not end in time does not.
-    fn passes(&self, mutant: u32, within: Duration) -> Result<bool, ToolError> {
+    /// Whether it passes with this variable. One that does not end in time does not.
+    fn passes(&self, variable: (&str, &OsStr), within: Duration) -> Result<bool, ToolError> {
         let mut command = self.program.command();
         command.stdout(Stdio::null()).stderr(Stdio::null());
-        command.env("RUST_TEST_THREADS", "1").env("RUST_BACKTRACE", "0").env("MUTANT", mutant.to_string());
+        command.env("RUST_TEST_THREADS", "1").env("RUST_BACKTRACE", "0").env(variable.0, variable.1);
         let started = ToolError::start(&self.program.name);
         let mut child = command.spawn().map_err(&started)?;
         let began = Instant::now();
@@ -81,15 +85,18 @@ impl Test {
     }
 }
 
-/// Measures the test programs without a mutant; what does not pass then judges nothing, and is told.
-fn measured(programs: Vec<Program>, say: &mut dyn FnMut(&str)) -> Result<Vec<Test>, ToolError> {
-    let mut all = Vec::new();
+/// Runs the test programs without a mutant: how long each takes, and which mutants it meets. What does not pass then judges nothing, and
+/// is told.
+fn measured(programs: Vec<Program>, folder: &Path, say: &mut dyn FnMut(&str)) -> Result<Vec<Test>, ToolError> {
+    let (mut all, seen) = (Vec::new(), folder.join("seen"));
     for program in programs {
-        let mut test = Test { program, takes: Duration::ZERO, caught: 0 };
+        write(&seen, b"")?;
+        let mut test = Test { program, takes: Duration::ZERO, caught: 0, meets: BTreeSet::new() };
         let began = Instant::now();
-        let passes = test.passes(0, LONGEST)?;
+        let passes = test.passes(("MUTANT_SEEN", seen.as_os_str()), LONGEST)?;
         test.takes = began.elapsed();
         if passes {
+            test.meets = read(&seen)?.lines().filter_map(|line| line.parse().ok()).collect();
             all.push(test);
         } else {
             say(&format!("LEFT OUT: {} does not pass within {} s without a mutant", test.name(), LONGEST.as_secs()));
@@ -101,10 +108,11 @@ fn measured(programs: Vec<Program>, say: &mut dyn FnMut(&str)) -> Result<Vec<Tes
 /// Runs the tests until one fails: which.
 fn caught(tests: &Mutex<Vec<Test>>, mutant: u32) -> Result<Option<String>, ToolError> {
     let lock = || tests.lock().unwrap_or_else(PoisonError::into_inner);
-    let mut order = lock().clone();
+    let mut order: Vec<Test> = lock().iter().filter(|test| test.meets.contains(&mutant)).cloned().collect();
     order.sort_by(|one, other| other.worth().total_cmp(&one.worth()));
+    let number = mutant.to_string();
     for test in order {
-        if !test.passes(mutant, test.patience())? {
+        if !test.passes(("MUTANT", OsStr::new(&number)), test.patience())? {
             if let Some(found) = lock().iter_mut().find(|present| present.program == test.program) {
                 found.caught = found.caught.saturating_add(1);
             }
@@ -123,7 +131,7 @@ pub fn run(root: &Path, request: Request, say: &mut dyn FnMut(&str)) -> Result<(
     let all = every(root)?;
     let target = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root.join("target"), |folder| root.join(folder));
     let built = built(root, &target.join("mutants"), &all, say)?;
-    let tests = measured(built.programs, say)?;
+    let tests = measured(built.programs, &target.join("mutants"), say)?;
     let mut record = Record::load(root)?;
     let names = tests.iter().map(Test::name).collect();
     if record.sources != sources || request.again {

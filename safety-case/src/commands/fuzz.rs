@@ -1,0 +1,114 @@
+//! `supervise fuzz`.
+
+use super::{FINDINGS, NOT_RUN, Outcome, print, root, telling};
+use crate::cli::Fuzz;
+use crate::fuzz::{RECORD, Record, Request, Sources, TARGETS, Target, available, run as fuzz};
+use crate::number::grouped;
+
+/// Vetted cycles that the design asks for, all targets together.
+const CYCLES: u64 = 1_000_000_000;
+/// For so long no new edge, for each target, s.
+const QUIET: u64 = 1_800;
+
+pub(super) fn run(arguments: &Fuzz) -> Outcome {
+    let root = root()?;
+    let (path, sources) = (root.join(RECORD), Sources::load(root)?);
+    let mut record = Record::load(&path)?;
+    if arguments.check {
+        show(&record)?;
+        return missing(&record, &sources);
+    }
+    if record.sources != sources {
+        record = Record { sources: sources.clone(), targets: Vec::new() };
+    }
+    if !arguments.merge.is_empty() {
+        for part in &arguments.merge {
+            record.merge(Record::load(part)?)?;
+        }
+        record.save(&path)?;
+        show(&record)?;
+        return Ok(0);
+    }
+    if !available() {
+        print(
+            "NOT RUN HERE: needs a nightly compiler and cargo install --locked cargo-fuzz. What follows is the record.\n",
+        )?;
+        show(&record)?;
+        return Ok(NOT_RUN);
+    }
+    let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    let (shard, _) = arguments.shard.unwrap_or((1, 1));
+    let targets =
+        if arguments.targets.is_empty() { TARGETS.map(str::to_owned).to_vec() } else { arguments.targets.clone() };
+    let request = Request {
+        targets,
+        seconds: arguments.seconds,
+        seed: arguments.seed.wrapping_add(u64::try_from(shard)?.saturating_sub(1).wrapping_mul(0x9E37_79B9))
+            & 0xFFFF_FFFF,
+        jobs: arguments.jobs.unwrap_or(cores),
+    };
+    let ran = telling(|say| fuzz(root, &request, say))?;
+    if Sources::load(root)? != sources {
+        return Err("the sources have changed while this ran: nothing is recorded".into());
+    }
+    let found: u64 = ran.iter().map(|target| target.found).sum();
+    let (mut record, path) = match arguments.shard {
+        None => (record, path),
+        Some((part, of)) => {
+            let path = root.join(format!("target/fuzz/shard-{part}-of-{of}.json"));
+            (Record { sources, targets: Vec::new() }, path)
+        }
+    };
+    for target in ran {
+        record.add(target);
+    }
+    record.save(&path)?;
+    show(&record)?;
+    print(format_args!("{}\n", path.display()))?;
+    if found > 0 {
+        print(format_args!("FOUND {found}: now in fuzz/corpus as regression-…; cargo test --test corpus shows it\n"))?;
+    }
+    Ok(if found > 0 { FINDINGS } else { 0 })
+}
+
+fn show(record: &Record) -> Result<(), std::io::Error> {
+    print(format_args!(
+        "{:<16} {:>13} {:>15} {:>9} {:>9} {:>10} {:>9} {:>6}\n",
+        "target", "inputs", "cycles", "seconds", "cycles/s", "edges", "quiet s", "found"
+    ))?;
+    for target in &record.targets {
+        let Target { target: name, inputs, cycles, seconds, edges, quiet_seconds, found } = target;
+        print(format_args!(
+            "{name:<16} {:>13} {:>15} {seconds:>9} {:>9} {edges:>10} {quiet_seconds:>9} {found:>6}\n",
+            grouped(*inputs),
+            grouped(*cycles),
+            grouped(cycles.checked_div(*seconds).unwrap_or(0)),
+        ))?;
+    }
+    print(format_args!("{} cycles in all\n", grouped(record.cycles())))
+}
+
+/// What the record does not show.
+fn missing(record: &Record, sources: &Sources) -> Outcome {
+    let mut findings = Vec::new();
+    if record.targets.is_empty() {
+        findings.push("no campaign is on record".to_owned());
+    } else if record.sources.shipped != sources.shipped {
+        findings.push("STALE: the shipped sources changed since".to_owned());
+    } else if record.sources.judges != sources.judges {
+        findings.push("STALE: targets, properties or the oracle changed since".to_owned());
+    }
+    if record.cycles() < CYCLES {
+        findings.push(format!("{} of {} cycles", grouped(record.cycles()), grouped(CYCLES)));
+    }
+    for name in TARGETS {
+        let quiet = record.targets.iter().find(|target| target.target == name).map_or(0, |target| target.quiet_seconds);
+        if quiet < QUIET {
+            findings.push(format!("{name}: no new edge for {quiet} s; {QUIET} s are asked for"));
+        }
+    }
+    for finding in &findings {
+        print(format_args!("{finding}\n"))?;
+    }
+    Ok(if findings.is_empty() { 0 } else { FINDINGS })
+}

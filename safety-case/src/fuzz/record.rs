@@ -1,0 +1,195 @@
+//! The record, `safety-case/records/fuzz.json`: what was tried so far on the present sources.
+
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+
+use crate::error::{ToolError, form, write};
+use crate::prove::{sha256, shipped, tokens};
+
+/// Where it stands.
+pub const RECORD: &str = "safety-case/records/fuzz.json";
+
+/// The targets, in the order in which they run.
+pub const TARGETS: [&str; 5] = ["command_stream", "differential", "wire_bytes", "candump_log", "dbc_map"];
+
+/// The facade: it is fuzzed, and no proof speaks of it.
+const FACADE: [&str; 1] = ["supervisor/src"];
+/// What makes the inputs and judges the cycles.
+const JUDGES: [&str; 5] =
+    ["fuzz/src", "fuzz/fuzz_targets", "proofs/src/properties", "tests/tests/common", "tests/tests/oracle"];
+
+/// Digests of what was fuzzed.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Sources {
+    /// The shipped sources and the facade.
+    pub shipped: String,
+    /// Targets, properties and oracle.
+    pub judges: String,
+}
+
+impl Sources {
+    /// Of the present sources.
+    ///
+    /// # Errors
+    /// A file cannot be read or is no Rust.
+    pub fn load(root: &Path) -> Result<Self, ToolError> {
+        let text = format!("{} {}", shipped(root)?, tokens(root, &FACADE)?);
+        Ok(Self { shipped: sha256(text.as_bytes()), judges: tokens(root, &JUDGES)? })
+    }
+}
+
+/// What a target has done.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Target {
+    /// Its name.
+    pub target: String,
+    /// Inputs that ran.
+    pub inputs: u64,
+    /// Cycles that were vetted and judged, at least; 0 for a target that reads files.
+    pub cycles: u64,
+    /// For how long it ran, s.
+    pub seconds: u64,
+    /// Edges and counters that it has reached.
+    pub edges: u64,
+    /// For how long, at the end, no new edge was found, s.
+    pub quiet_seconds: u64,
+    /// Inputs that broke something, each now a file of the corpus.
+    pub found: u64,
+}
+
+impl Target {
+    /// This, and then another run that began with what this one had found.
+    fn then(&mut self, next: &Self) {
+        let quiet = if next.quiet_seconds >= next.seconds { self.quiet_seconds } else { 0 };
+        self.sum(next);
+        self.quiet_seconds = quiet.saturating_add(next.quiet_seconds);
+    }
+
+    /// This, and another run on another machine.
+    fn beside(&mut self, other: &Self) {
+        let quiet = self.quiet_seconds.min(other.quiet_seconds);
+        self.sum(other);
+        self.quiet_seconds = quiet;
+    }
+
+    fn sum(&mut self, other: &Self) {
+        self.inputs = self.inputs.saturating_add(other.inputs);
+        self.cycles = self.cycles.saturating_add(other.cycles);
+        self.seconds = self.seconds.saturating_add(other.seconds);
+        self.found = self.found.saturating_add(other.found);
+        self.edges = self.edges.max(other.edges);
+    }
+}
+
+/// The record.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Record {
+    /// Of which sources it speaks.
+    pub sources: Sources,
+    /// What each target has done, all runs together.
+    pub targets: Vec<Target>,
+}
+
+impl Record {
+    /// The committed one; empty if there is none.
+    ///
+    /// # Errors
+    /// It cannot be read or understood.
+    pub fn load(path: &Path) -> Result<Self, ToolError> {
+        match std::fs::read(path) {
+            Ok(bytes) => serde_json::from_slice(&bytes).map_err(|error| form(path, &error)),
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(Self::default()),
+            Err(error) => Err(ToolError::File { path: path.to_owned(), error }),
+        }
+    }
+
+    /// Writes it.
+    ///
+    /// # Errors
+    /// It cannot be written.
+    pub fn save(&self, path: &Path) -> Result<(), ToolError> {
+        let text = serde_json::to_string_pretty(self).map_err(|error| form(path, &error))?;
+        write(path, format!("{text}\n").as_bytes())
+    }
+
+    /// Adds the run of a target that came after those that are in it.
+    pub fn add(&mut self, run: Target) {
+        self.put(run, Target::then);
+    }
+
+    /// Adds what ran on another machine.
+    ///
+    /// # Errors
+    /// It speaks of other sources.
+    pub fn merge(&mut self, other: Self) -> Result<(), ToolError> {
+        if other.sources != self.sources {
+            return Err(ToolError::Arguments("a part speaks of other sources than the present ones".to_owned()));
+        }
+        for run in other.targets {
+            self.put(run, Target::beside);
+        }
+        Ok(())
+    }
+
+    fn put(&mut self, run: Target, join: fn(&mut Target, &Target)) {
+        match self.targets.iter_mut().find(|present| present.target == run.target) {
+            Some(present) => join(present, &run),
+            None => self.targets.push(run),
+        }
+    }
+
+    /// Cycles of all targets.
+    #[must_use]
+    pub fn cycles(&self) -> u64 {
+        self.targets.iter().fold(0, |sum, target| sum.saturating_add(target.cycles))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Record, Sources, Target};
+
+    fn ran(seconds: u64, edges: u64, quiet_seconds: u64) -> Target {
+        Target { target: "t".into(), inputs: 10, cycles: 100, seconds, edges, quiet_seconds, found: 0 }
+    }
+
+    #[test]
+    fn a_quiet_run_goes_on_being_quiet() {
+        let mut record = Record::default();
+        record.add(ran(60, 5, 20));
+        record.add(ran(60, 5, 60));
+        assert_eq!(record.targets, [Target { inputs: 20, cycles: 200, ..ran(120, 5, 80) }]);
+        record.add(ran(60, 7, 10));
+        assert_eq!(record.targets, [Target { inputs: 30, cycles: 300, ..ran(180, 7, 10) }], "it grew again");
+        assert_eq!(record.cycles(), 300);
+    }
+
+    #[test]
+    fn parts_of_other_machines_are_as_quiet_as_the_least_quiet_and_of_the_same_sources() {
+        let mut record = Record::default();
+        record.add(ran(60, 5, 20));
+        let mut part = Record::default();
+        part.add(ran(60, 6, 50));
+        assert!(record.merge(part.clone()).is_ok());
+        assert_eq!(record.targets, [Target { inputs: 20, cycles: 200, ..ran(120, 6, 20) }]);
+        part.sources = Sources { shipped: "other".into(), judges: String::new() };
+        assert!(record.merge(part).is_err());
+    }
+
+    #[test]
+    fn what_is_written_is_read_back() {
+        let Ok(folder) = tempfile::tempdir() else { unreachable!("there is a temporary folder") };
+        let path = folder.path().join("fuzz.json");
+        assert_eq!(Record::load(&path).ok(), Some(Record::default()));
+        let mut record = Record::default();
+        record.add(ran(60, 5, 20));
+        assert!(record.save(&path).is_ok());
+        assert_eq!(Record::load(&path).ok(), Some(record));
+        assert!(std::fs::write(&path, "{").is_ok());
+        assert!(Record::load(&path).is_err_and(|error| error.to_string().contains("fuzz.json")));
+    }
+}
