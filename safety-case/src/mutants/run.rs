@@ -93,8 +93,10 @@ fn measured(programs: Vec<Program>, folder: &Path, say: &mut dyn FnMut(&str)) ->
         write(&seen, b"")?;
         let mut test = Test { program, takes: Duration::ZERO, caught: 0, meets: BTreeSet::new() };
         let began = Instant::now();
-        let passes = test.passes(("MUTANT_SEEN", seen.as_os_str()), LONGEST)?;
+        let mut passes = test.passes(("MUTANT", OsStr::new("0")), LONGEST)?;
         test.takes = began.elapsed();
+        // To look at every mutant takes its time, too.
+        passes = passes && test.passes(("MUTANT_SEEN", seen.as_os_str()), LONGEST.saturating_mul(10))?;
         if passes {
             test.meets = read(&seen)?.lines().filter_map(|line| line.parse().ok()).collect();
             all.push(test);
