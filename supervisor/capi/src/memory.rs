@@ -5,6 +5,7 @@
 //! leads to memory of its own program, and that nothing else touches this memory during the call.
 #![expect(unsafe_code, reason = "C hands over pointers: here they are followed, and nowhere else")]
 
+use core::mem::MaybeUninit;
 use core::ptr::NonNull;
 use core::sync::atomic::{AtomicU32, Ordering};
 
@@ -209,12 +210,17 @@ impl<T: Kept> Place<T> {
         self.header().complement.store(0, Ordering::Relaxed);
     }
 
-    /// Keeps this value from now on.
-    pub(crate) fn keep(&self, value: T) {
+    /// Keeps from now on what `build` writes. It is built where it is kept: it has no room on the stack of a small target.
+    pub(crate) fn keep(&self, build: impl FnOnce(&mut MaybeUninit<T>) -> &mut T) {
         self.clear();
-        // SAFETY: there is room for it: `T::FITS` and the promise of `new`. What was there before is not dropped: it
-        // may be anything, and no kept value holds a resource.
-        unsafe { (&raw mut (*self.cell.as_ptr()).value).write(value) }
+        // SAFETY: there is room for it: `T::FITS` and the promise of `new`; anything is a value that is not there yet.
+        // What was there before is not dropped: no kept value holds a resource.
+        let slot = unsafe { &mut *(&raw mut (*self.cell.as_ptr()).value).cast::<MaybeUninit<T>>() };
+        // It gives back what it has written: a value in this slot, and in no other place.
+        let here = core::ptr::from_mut(slot).addr();
+        if core::ptr::from_mut(build(slot)).addr() != here {
+            return;
+        }
         self.header().gate.store(READY, Ordering::Relaxed);
         self.header().complement.store(!T::MAGIC, Ordering::Relaxed);
         self.header().magic.store(T::MAGIC, Ordering::Release);

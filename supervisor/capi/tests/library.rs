@@ -37,6 +37,41 @@ fn c_programs_find_the_calls_as_the_header_says() -> Outcome {
     Ok(())
 }
 
+/// SELF-2a: the first vetted frame of the guide comes out as the guide shows it.
+#[test]
+fn the_first_frame_is_that_of_the_guide() -> Outcome {
+    let Some(cc) = c_compiler("the first frame of the guide") else { return Ok(()) };
+    std::fs::create_dir_all(built())?;
+    let sealed = built().join("default-first.bin");
+    std::fs::write(&sealed, Sealed::from_default()?.to_bytes())?;
+    let example = package().join("example");
+    let include = format!("-I{}", example.join("common").display());
+    let sources = [example.join("host/first.c"), example.join("common/link.c")];
+    let said = output(&program(&cc, "first", &["-std=c99", &include], &sources)?, &[sealed.as_os_str()])?;
+    let guide = std::fs::read_to_string(package().join("README.md"))?;
+    assert!(guide.contains(&format!("<!-- first: what it prints -->\n```\n{said}```\n")), "it prints\n{said}");
+    Ok(())
+}
+
+/// SELF-1a, SELF-1c: no call reads what was never written, or touches memory that nobody gave it, as Valgrind sees it.
+#[test]
+fn no_call_touches_what_is_not_the_callers() -> Outcome {
+    let Some(cc) = c_compiler("the search for stray accesses") else { return Ok(()) };
+    if Command::new("valgrind").arg("--version").output().is_err() {
+        println!("NOT RUN: the search for stray accesses: valgrind is not here");
+        return Ok(());
+    }
+    std::fs::create_dir_all(built())?;
+    let sealed = built().join("default-valgrind.bin");
+    std::fs::write(&sealed, Sealed::from_default()?.to_bytes())?;
+    let program = program(&cc, "boundary-valgrind", &["-std=c99"], &[package().join("tests/c/boundary.c")])?;
+    let mut valgrind = Command::new("valgrind");
+    valgrind.args(["--quiet", "--error-exitcode=9", "--track-origins=yes"]).arg(program).arg(&sealed);
+    let said = run(&mut valgrind)?;
+    assert!(said.contains(" passed, 0 failed"), "{said}");
+    Ok(())
+}
+
 /// SELF-1b: no panic is linked into a program that makes every call; nor an allocator.
 #[test]
 fn no_panic_is_linked() -> Outcome {

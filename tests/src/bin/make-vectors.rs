@@ -2,11 +2,13 @@
 //!
 //! Writes the files of every shipped drive and of the boundary set into OUTDIR, by default `target/vectors`, and what is
 //! kept of them into `tests/vectors`: the boundary set's frames and decisions, packed, and the SHA-256 of every file.
-//! `-- --binary OUTDIR` writes the binary files alone, and keeps nothing.
+//! `-- --binary OUTDIR` writes the binary files alone, the sealed configuration beside them (`default.bin`), and keeps
+//! nothing.
 
 use std::error::Error;
 use std::path::{Path, PathBuf};
 
+use supervisor::Sealed;
 use supervisor_tests::vectors::files::{all, keep, vectors, write_binary};
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -16,6 +18,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let folder = arguments.next().map_or_else(default, PathBuf::from);
     std::fs::create_dir_all(&folder)?;
     if binary {
+        std::fs::write(folder.join("default.bin"), Sealed::from_default()?.to_bytes())?;
         for vector in vectors()? {
             write_binary(&folder.join(format!("{}.vec", vector.name)), &vector)?;
             println!("{}: {} cycles", vector.name, vector.cycles.len());

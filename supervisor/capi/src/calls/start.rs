@@ -1,8 +1,10 @@
 //! Start after a reset.
 #![expect(unsafe_code, reason = "C calls these functions by their names and with pointers")]
 
+use core::mem::MaybeUninit;
+
 use supervisor::wire::{Receiver, Sender};
-use supervisor::{ConfigError, Record, ResetCause, Sealed, Supervisor};
+use supervisor::{Config, ConfigError, Record, ResetCause, Sealed, Supervisor};
 
 use super::code;
 use crate::codes::SupervisorCode;
@@ -50,10 +52,20 @@ pub unsafe extern "C" fn supervisor_init(
             record => Some(Record::from_code(record).ok_or(SupervisorCode::Value)?),
         };
         let sealed = Sealed::from_sealed(sealed.values()).map_err(refused)?;
-        let supervisor = Supervisor::new(sealed, cause, record);
-        let receiver = Receiver::new(supervisor.config());
-        place.keep(State { supervisor, receiver, sender: Sender::new(), last: None });
+        place.keep(|slot| build(slot, sealed, cause, record));
         Ok(SupervisorCode::Ok)
+    })
+}
+
+/// On its own, so that the compiler writes into the slot and not past the stack.
+#[inline(never)]
+fn build(slot: &mut MaybeUninit<State>, sealed: Sealed, cause: ResetCause, record: Option<Record>) -> &mut State {
+    let receiver = Receiver::new(sealed.intact().unwrap_or(&Config::DEFAULT));
+    slot.write(State {
+        supervisor: Supervisor::new(sealed, cause, record),
+        receiver,
+        sender: Sender::new(),
+        last: None,
     })
 }
 
@@ -72,7 +84,7 @@ pub unsafe extern "C" fn supervisor_diagnosis_init(
     code(|| {
         fits::<SupervisorDiagnosis>(bytes, abi_version)?;
         // SAFETY: promised by the caller, and `bytes` are enough.
-        unsafe { Place::<Diagnosis>::new(diagnosis) }?.keep(Diagnosis::new());
+        unsafe { Place::<Diagnosis>::new(diagnosis) }?.keep(|slot| slot.write(Diagnosis::new()));
         Ok(SupervisorCode::Ok)
     })
 }
