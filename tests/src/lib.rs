@@ -8,6 +8,7 @@
 //! - [`judge`]: interventions, refused misdeeds, whether the bus stayed safe;
 //! - [`s1`]: the published approach of S1 beside ours;
 //! - [`inject`]: faults at random times in correct drives, and what comes of them;
+//! - [`vectors`]: golden vectors, for a supervisor in another language;
 //! - [`catalogue`], [`manifest`]: the drives that ship in `tests/drives`.
 
 pub mod bench;
@@ -25,3 +26,4 @@ pub mod number;
 pub mod plant;
 pub mod road;
 pub mod s1;
+pub mod vectors;
