@@ -73,6 +73,12 @@ impl Known {
         others.extend(readings.iter().map(|entry| entry.id.clone()));
         others.extend(item.interface.iter().map(|entry| entry.id.clone()));
         others.extend(item.mode.iter().map(|entry| entry.id.clone()));
+        others.extend(analysis.failures.iter().map(|entry| entry.id.clone()));
+        others.extend(analysis.tools.iter().map(|entry| entry.id.clone()));
+        others.extend(analysis.methods.iter().map(|entry| entry.id.clone()));
+        others.extend(analysis.methods.iter().flat_map(|table| &table.row).map(|entry| entry.id.clone()));
+        others.extend(analysis.limitations.iter().map(|entry| entry.id.clone()));
+        others.extend(analysis.risks.iter().map(|entry| entry.id.clone()));
         Self { requirements, others }
     }
 }
