@@ -130,43 +130,62 @@ fn ids<'a, T>(entries: &'a [T], id: impl Fn(&'a T) -> &'a String) -> BTreeSet<&'
     entries.iter().map(|entry| id(entry).as_str()).collect()
 }
 
+impl Analysis {
+    /// Every id but those of requirements, with what it must begin with.
+    pub fn all_ids(&self) -> impl Iterator<Item = (&str, &str)> {
+        let Self { item, hazards, goals, assumptions, timing, readings, .. } = self;
+        let Self { failures, tools, methods, limitations, risks, .. } = self;
+        let events =
+            hazards.iter().flat_map(|hazard| hazard.event.iter().map(|event| (hazard.id.as_str(), event.id.as_str())));
+        let rows = methods.iter().flat_map(|table| table.row.iter().map(|row| (table.id.as_str(), row.id.as_str())));
+        (item.interface.iter().map(|entry| ("IF-", entry.id.as_str())))
+            .chain(item.mode.iter().map(|entry| ("OM-", entry.id.as_str())))
+            .chain(hazards.iter().map(|entry| ("HZ-", entry.id.as_str())))
+            .chain(events)
+            .chain(goals.iter().map(|entry| ("SG-", entry.id.as_str())))
+            .chain(assumptions.iter().map(|entry| ("AOU-", entry.id.as_str())))
+            .chain(timing.timer.iter().map(|entry| ("TM-", entry.id.as_str())))
+            .chain(timing.chain.iter().map(|entry| ("CH-", entry.id.as_str())))
+            .chain(readings.iter().map(|entry| ("R-", entry.id.as_str())))
+            .chain(failures.iter().map(|entry| ("FM-", entry.id.as_str())))
+            .chain(tools.iter().map(|entry| ("TL-", entry.id.as_str())))
+            .chain(methods.iter().map(|entry| ("MT-", entry.id.as_str())))
+            .chain(rows)
+            .chain(limitations.iter().map(|entry| ("LIM-", entry.id.as_str())))
+            .chain(risks.iter().map(|entry| ("RR-", entry.id.as_str())))
+    }
+
+    /// Every id that a text may name: those of all entries, of the faults, and the groups of requirements.
+    #[must_use]
+    pub fn ids(&self) -> BTreeSet<String> {
+        let mut ids: BTreeSet<String> = self.all_ids().map(|(_, id)| id.to_owned()).collect();
+        for requirement in &self.requirements {
+            ids.insert(requirement.id.trim_end_matches(|last: char| last.is_ascii_lowercase()).to_owned());
+            ids.insert(requirement.id.clone());
+        }
+        ids.extend(self.faults.iter().cloned());
+        ids
+    }
+}
+
 fn check_ids(analysis: &Analysis, findings: &mut Findings) {
-    let Analysis { item, hazards, goals, requirements, assumptions, timing, readings, .. } = analysis;
-    let mut all: Vec<(&str, &str)> = Vec::new();
-    all.extend(item.interface.iter().map(|entry| ("IF-", entry.id.as_str())));
-    all.extend(item.mode.iter().map(|entry| ("OM-", entry.id.as_str())));
-    all.extend(hazards.iter().map(|entry| ("HZ-", entry.id.as_str())));
-    all.extend(
-        hazards.iter().flat_map(|hazard| hazard.event.iter().map(|event| (hazard.id.as_str(), event.id.as_str()))),
-    );
-    all.extend(goals.iter().map(|entry| ("SG-", entry.id.as_str())));
-    all.extend(assumptions.iter().map(|entry| ("AOU-", entry.id.as_str())));
-    all.extend(timing.timer.iter().map(|entry| ("TM-", entry.id.as_str())));
-    all.extend(timing.chain.iter().map(|entry| ("CH-", entry.id.as_str())));
-    all.extend(readings.iter().map(|entry| ("R-", entry.id.as_str())));
-    all.extend(analysis.failures.iter().map(|entry| ("FM-", entry.id.as_str())));
-    all.extend(analysis.tools.iter().map(|entry| ("TL-", entry.id.as_str())));
-    all.extend(analysis.methods.iter().map(|entry| ("MT-", entry.id.as_str())));
-    let rows = analysis.methods.iter().flat_map(|table| table.row.iter().map(|row| (table.id.as_str(), row.id.as_str())));
-    all.extend(rows);
-    all.extend(analysis.limitations.iter().map(|entry| ("LIM-", entry.id.as_str())));
-    all.extend(analysis.risks.iter().map(|entry| ("RR-", entry.id.as_str())));
-    for (prefix, id) in &all {
+    let mut seen = BTreeSet::new();
+    let mut twice = |id: &str, findings: &mut Findings| {
+        if !seen.insert(id.to_owned()) {
+            findings.add(Rule::DuplicateId, id, "is defined more than once");
+        }
+    };
+    for (prefix, id) in analysis.all_ids() {
         if id.strip_prefix(prefix).is_none_or(str::is_empty) {
             findings.add(Rule::IdForm, id, format!("does not begin with {prefix}"));
         }
+        twice(id, findings);
     }
-    for requirement in requirements {
+    for requirement in &analysis.requirements {
         if !is_requirement_id(&requirement.id) {
             findings.add(Rule::IdForm, &requirement.id, "is not of the form AREA-7a");
         }
-    }
-    all.extend(requirements.iter().map(|entry| ("", entry.id.as_str())));
-    let mut seen = BTreeSet::new();
-    for (_, id) in all {
-        if !seen.insert(id) {
-            findings.add(Rule::DuplicateId, id, "is defined more than once");
-        }
+        twice(&requirement.id, findings);
     }
 }
 
