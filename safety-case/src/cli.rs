@@ -1,6 +1,7 @@
 //! The command line.
 
 mod coverage;
+mod evidence;
 mod inject;
 mod mutants;
 
@@ -10,6 +11,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use supervisor::{Record, ResetCause};
 
 pub use coverage::Coverage;
+pub use evidence::Evidence;
 pub use inject::Inject;
 pub use mutants::Mutants;
 
@@ -36,6 +38,7 @@ Examples:
   supervise inject --html target/inject.html         faults in correct drives, and what becomes of the bus
   supervise trace --html target/trace.html           which code, proof and test belongs to which requirement
   supervise coverage --html target/coverage.html     which statements, branches and conditions the tests reach
+  supervise evidence                                 all of it in one folder, open items first
 
 Exit codes: 0 done; 1 the analysis or the traceability has findings, a harness is not proved, or a bar of the design is not
 met; 2 bad arguments, files, mapping or configuration; 3 with --fail-on-intervention, if the supervisor intervened;
@@ -187,6 +190,9 @@ pub enum Command {
     /// Measure which statements, branches and conditions of the decision the tests reach
     #[command(long_about = coverage::ABOUT)]
     Coverage(Coverage),
+    /// Collect everything that speaks for the supervisor, open items first, and check that it still does
+    #[command(long_about = evidence::ABOUT)]
+    Evidence(Evidence),
 }
 
 /// Arguments of `replay`.

@@ -86,7 +86,12 @@ impl Findings {
         self.0.push(Finding { rule, place: place.to_owned(), message: message.into() });
     }
 
-    pub(super) fn unknown<'a>(&mut self, place: &str, named: impl IntoIterator<Item = &'a String>, known: &BTreeSet<&str>) {
+    pub(super) fn unknown<'a>(
+        &mut self,
+        place: &str,
+        named: impl IntoIterator<Item = &'a String>,
+        known: &BTreeSet<&str>,
+    ) {
         for id in named {
             if !known.contains(id.as_str()) {
                 self.add(Rule::UnknownId, place, format!("refers to {id}, which nothing defines"));

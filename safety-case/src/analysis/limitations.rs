@@ -112,11 +112,15 @@ pub(super) fn check(
     // A folder without the file lists nothing; one that has it lists every reading that nobody has confirmed.
     let listed: BTreeSet<&str> =
         limitations.iter().flat_map(|limitation| &limitation.readings).map(String::as_str).collect();
-    let proposed: BTreeSet<&str> =
-        readings.iter().filter(|reading| reading.status == Status::Proposed).map(|reading| reading.id.as_str()).collect();
+    let proposed: BTreeSet<&str> = readings
+        .iter()
+        .filter(|reading| reading.status == Status::Proposed)
+        .map(|reading| reading.id.as_str())
+        .collect();
     if !limitations.is_empty() {
         for reading in proposed.symmetric_difference(&listed) {
-            let what = if listed.contains(reading) { "is listed, and is not proposed" } else { "is proposed, and not listed" };
+            let what =
+                if listed.contains(reading) { "is listed, and is not proposed" } else { "is proposed, and not listed" };
             findings.add(Rule::Unlisted, &format!("{FILE}: {reading}"), what);
         }
     }

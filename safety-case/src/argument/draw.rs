@@ -185,7 +185,7 @@ impl Drawing<'_> {
             // Said in full at its own place.
             lines.truncate(2);
         }
-        let note = match (again, away, self.cut.contains(id)) {
+        let beside = match (again, away, self.cut.contains(id)) {
             (true, ..) => "see above".to_owned(),
             (_, true, _) => format!("in {}", module.name),
             (.., true) => "goes on below".to_owned(),
@@ -194,7 +194,8 @@ impl Drawing<'_> {
             _ => String::new(),
         };
         let high = 2 * PAD + LINE * (lines.len() + 1);
-        let rows: Vec<Value> = (1..).zip(&lines).map(|(row, text)| json!({"y": y + PAD + 11 + LINE * row, "text": text})).collect();
+        let rows: Vec<Value> =
+            (1..).zip(&lines).map(|(row, text)| json!({"y": y + PAD + 11 + LINE * row, "text": text})).collect();
         let shape = match element {
             Some(Element::Strategy) => "strategy",
             Some(Element::Solution | Element::CounterSolution) => "solution",
@@ -207,7 +208,7 @@ impl Drawing<'_> {
         self.boxes.push(json!({
             "id": id, "x": x, "y": y, "width": WIDE, "height": high, "right": x + WIDE, "bottom": y + high,
             "shape": shape, "tone": tone, "doubt": doubt, "defeated": node.defeated, "undeveloped": node.undeveloped,
-            "away": again || away, "note": note, "rows": rows, "left": x + PAD + 4, "first": y + PAD + 11,
+            "away": again || away, "note": beside, "rows": rows, "left": x + PAD + 4, "first": y + PAD + 11,
             "end": x + WIDE - PAD - 4, "letter": match element {
                 Some(Element::Assumption) => "A", Some(Element::Justification) => "J", _ => "",
             },

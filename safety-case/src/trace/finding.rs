@@ -61,7 +61,8 @@ struct Known {
 
 impl Known {
     fn of(analysis: &Analysis) -> Self {
-        let groups = analysis.requirements.iter().filter_map(|entry| Id::parse(&entry.id)).map(|id| id.group().to_string());
+        let groups =
+            analysis.requirements.iter().filter_map(|entry| Id::parse(&entry.id)).map(|id| id.group().to_string());
         let requirements = analysis.requirements.iter().map(|entry| entry.id.clone()).chain(groups).collect();
         let others = analysis.all_ids().map(|(_, id)| id.to_owned()).collect();
         Self { requirements, others }
