@@ -10,13 +10,13 @@ use crate::template::fill;
 const PICTURE: &str = include_str!("../../templates/argument.svg");
 
 /// Pixels: of a box, of a column, of a line, around a text, between boxes.
-const WIDE: usize = 226;
-const COLUMN: usize = 268;
+const WIDE: usize = 254;
+const COLUMN: usize = 294;
 const LINE: usize = 15;
 const PAD: usize = 8;
 const GAP: usize = 14;
 /// Characters in a line of a box.
-const CHARACTERS: usize = 37;
+const CHARACTERS: usize = 34;
 /// A sheet that is higher is divided.
 const HIGHEST: usize = 960;
 
@@ -183,7 +183,10 @@ impl Drawing<'_> {
         let mut lines = wrapped(&node.text, CHARACTERS);
         if again || away {
             // Said in full at its own place.
-            lines.truncate(2);
+            if lines.len() > 2 {
+                lines.truncate(2);
+                lines.iter_mut().skip(1).for_each(|line| line.push_str(" …"));
+            }
         }
         let beside = match (again, away, self.cut.contains(id)) {
             (true, ..) => "see above".to_owned(),

@@ -50,6 +50,11 @@ pub fn load(root: &Path) -> Result<Argument, ToolError> {
         argument.modules.push(module(&path, &name, &text)?);
         argument.texts.push((format!("{FOLDER}/{name}"), text));
     }
+    // In the order in which the index uses them.
+    let uses = argument.modules.first().map(|index| index.uses.clone()).unwrap_or_default();
+    let place =
+        |module: &Module| uses.iter().position(|file| *file == module.file).map_or(uses.len(), |place| place + 1);
+    argument.modules.sort_by_key(|module| if module.file == INDEX { 0 } else { place(module) });
     Ok(argument)
 }
 

@@ -10,8 +10,18 @@ use serde_json::Value;
 use crate::common::{Outcome, project, supervise_in};
 
 /// What a copy of the project is made of.
-const COPIED: [&str; 10] =
-    ["supervisor", "proofs", "tests", "fuzz", "safety-case", ".ci", "README.md", "Cargo.toml", "Cargo.lock", "clippy.toml"];
+const COPIED: [&str; 10] = [
+    "supervisor",
+    "proofs",
+    "tests",
+    "fuzz",
+    "safety-case",
+    ".ci",
+    "README.md",
+    "Cargo.toml",
+    "Cargo.lock",
+    "clippy.toml",
+];
 
 fn copied() -> Result<tempfile::TempDir, Box<dyn std::error::Error>> {
     let (root, folder) = (project(), tempfile::tempdir()?);
@@ -39,18 +49,42 @@ fn check(root: &Path, out: &Path) -> Result<(i32, String), Box<dyn std::error::E
 }
 
 /// A file, what stands in it, what is planted in its place, and what the check says of it.
-const PLANTS: [(&str, &str, &str, &str); 14] = [
+const PLANTS: [(&str, &str, &str, &str); 11] = [
     ("supervisor/core/src/gear.rs", "(GEAR-1", "(GEAR-99", "traceability: supervisor/core/src/gear.rs"),
     ("tests/tests/gear.rs", "/// GEAR-1a: P at", "/// A test: P at", "[UntaggedTest]"),
     ("safety-case/analysis/goals.toml", "ftti_ms = 1200", "ftti_ms = 12", "[ChainTooLong]"),
-    ("safety-case/analysis/timing.toml", "value_ms = 125\nconfig", "value_ms = 120\nconfig", "timing.toml: TM-10: says 120 ms"),
-    ("safety-case/analysis/timing.toml", "config = \"timeout_50\"", "config = \"timeout_5\"", "timeout_5 is not in the table of limits"),
+    (
+        "safety-case/analysis/timing.toml",
+        "value_ms = 125\nconfig",
+        "value_ms = 120\nconfig",
+        "timing.toml: TM-10: says 120 ms",
+    ),
+    (
+        "safety-case/analysis/timing.toml",
+        "config = \"timeout_100\"",
+        "config = \"timeout_1\"",
+        "timeout_1 is not in the table of limits",
+    ),
     ("safety-case/analysis/fmea.toml", "\"SEAT-1a\"", "\"SEAT-99z\"", "refers to SEAT-99z, which nothing defines"),
     ("safety-case/analysis/fmea.toml", "harness seat_1_leave_exactly", "harness seat_0", "harness seat_0 is not there"),
-    ("safety-case/analysis/fmea.toml", "\"supervisor/core/src/gear.rs\"", "\"supervisor/core/src/seat.rs\"", "is a part that no failure mode speaks of"),
+    (
+        "safety-case/analysis/fmea.toml",
+        "\"supervisor/core/src/gear.rs\"",
+        "\"supervisor/core/src/seat.rs\"",
+        "is a part that no failure mode speaks of",
+    ),
     ("safety-case/argument/own.gsn.yaml", "fault FI-81", "fault FI-999", "fault FI-999 is not there"),
-    ("safety-case/argument/index.gsn.yaml", "supportedBy: [S-Top]", "supportedBy: [S-Nowhere]", "refers to S-Nowhere, which nothing defines"),
+    (
+        "safety-case/argument/index.gsn.yaml",
+        "supportedBy: [S-Top]",
+        "supportedBy: [S-Nowhere]",
+        "refers to S-Nowhere, which nothing defines",
+    ),
     ("safety-case/argument/index.gsn.yaml", "statement of conformity", "Certified system", "says \"certified\""),
+];
+
+/// The same, of what one defect would hide of another: one at a time.
+const ALONE: [(&str, &str, &str, &str); 3] = [
     ("README.md", " dangerous runs of faults", "9 dangerous runs of faults", "a figure is not that of its record"),
     ("safety-case/README.md", "<!-- evidence records:", "<!-- records:", "has no table of the records"),
     ("safety-case/records/inject.json", "\"averted\":1", "\"averted\":2", "a figure is not that of its record"),
@@ -62,14 +96,26 @@ fn every_planted_defect_turns_the_check_red() -> Outcome {
     let root = folder.path();
     let out = root.join("target/evidence");
     assert_eq!(check(root, &out)?.0, 0, "{}", check(root, &out)?.1);
-    for (name, from, to, says) in PLANTS {
-        let path = root.join(name);
-        let text = fs::read_to_string(&path)?;
+    let plant = |name: &str, from: &str, to: &str| -> Result<String, Box<dyn std::error::Error>> {
+        let text = fs::read_to_string(root.join(name))?;
         assert!(text.contains(from), "{name} has no {from}");
-        fs::write(&path, text.replacen(from, to, 1))?;
+        fs::write(root.join(name), text.replacen(from, to, 1))?;
+        Ok(text)
+    };
+    for (name, from, to, says) in ALONE {
+        let before = plant(name, from, to)?;
         let (code, findings) = check(root, &out)?;
         assert!(code == 1 && findings.contains(says), "{name}: {to}: {code}\n{findings}");
-        fs::write(&path, text)?;
+        fs::write(root.join(name), before)?;
+    }
+    // The others are named one by one, so they may be planted together: each run takes seconds.
+    for (name, from, to, _) in PLANTS {
+        plant(name, from, to)?;
+    }
+    let (code, findings) = check(root, &out)?;
+    assert_eq!(code, 1);
+    for (name, _, to, says) in PLANTS {
+        assert!(findings.contains(says), "{name}: {to}: not found\n{findings}");
     }
     Ok(())
 }
@@ -113,7 +159,11 @@ fn two_runs_give_the_same_folder_and_its_manifest_holds() -> Outcome {
     fs::remove_file(out("one").join("needs.json"))?;
     let (code, findings) = check(&project(), &out("one"))?;
     assert_eq!(code, 1);
-    for says in ["trace.json: has another digest", "more.txt: is not in the manifest", "needs.json: is in the manifest, and is gone"] {
+    for says in [
+        "trace.json: has another digest",
+        "more.txt: is not in the manifest",
+        "needs.json: is in the manifest, and is gone",
+    ] {
         assert!(findings.contains(says), "{says}: {findings}");
     }
 

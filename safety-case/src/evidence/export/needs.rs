@@ -14,7 +14,7 @@ pub fn needs(analysis: &Analysis, trace: &Trace, version: &str) -> Value {
     let mut needs = Map::new();
     let mut add = |id: String, kind: &str, title: &str, content: &str, more: &[(&str, Value)]| {
         let mut need = json!({
-            "id": id, "type": kind, "title": line(title), "content": content, "description": content, "status": "open",
+            "id": id, "type": kind, "title": line(title), "content": content, "status": "open",
             "tags": [], "links": [],
         });
         if let Some(fields) = need.as_object_mut() {

@@ -5,7 +5,7 @@ use cyclonedx_bom::models::component::{Classification, Scope};
 use cyclonedx_bom::models::dependency::{Dependencies, Dependency};
 use cyclonedx_bom::models::hash::{Hash, HashAlgorithm, HashValue, Hashes};
 use cyclonedx_bom::models::license::{LicenseChoice, Licenses};
-use cyclonedx_bom::prelude::{Bom, Component, Components, Metadata, Purl, SpecVersion};
+use cyclonedx_bom::prelude::{Bom, Component, Components, Metadata, Purl, SpdxExpression, SpecVersion};
 
 use crate::evidence::inventory::{Inventory, Package};
 
@@ -37,7 +37,11 @@ fn component(package: &Package) -> Component {
     let mut component = Component::new(Classification::Library, &package.name, &package.version, Some(package.id()));
     // What the shipped supervisor does not need when it runs is a tool of its making.
     component.scope = Some(if package.shipped { Scope::Required } else { Scope::Excluded });
-    component.licenses = package.license.as_ref().map(|license| Licenses(vec![LicenseChoice::expression(license)]));
+    component.licenses = package.license.as_ref().map(|license| {
+        // Old manifests write "MIT/Apache-2.0"; what is no expression at all is a name.
+        let expression = SpdxExpression::parse_lax(license.clone()).map(LicenseChoice::Expression);
+        Licenses(vec![expression.unwrap_or_else(|_| LicenseChoice::license(license))])
+    });
     if !package.ours {
         component.purl = Purl::new("cargo", &package.name, &package.version).ok();
     }

@@ -7,17 +7,46 @@ use serde::Deserialize;
 
 use super::{Standing, State};
 use crate::coverage;
+use crate::error::ToolError;
 use crate::inject::{self, Standing as FaultStanding};
 use crate::mistakes;
 use crate::mutants;
 use crate::prove::{self, Place, Present, Verdict, sha256, shipped};
 
 type Outcome = Result<Standing, Box<dyn std::error::Error>>;
-type Read = fn(&Path) -> Outcome;
+type Read = fn(&Shared<'_>) -> Outcome;
+
+/// What several records are judged by, read once.
+pub(super) struct Shared<'a> {
+    root: &'a Path,
+    present: Present,
+    list: prove::List,
+    proofs: prove::Record,
+    /// Of each harness of the list.
+    states: Vec<prove::State>,
+}
+
+impl<'a> Shared<'a> {
+    /// Reads the sources, and judges every proof.
+    ///
+    /// # Errors
+    /// A source or a list cannot be read.
+    pub(super) fn load(root: &'a Path) -> Result<Self, ToolError> {
+        let present = Present { sources: prove::Sources::load(root)?, configuration: prove::default_configuration()? };
+        let (list, proofs) = (prove::List::load(root)?, prove::Record::load(&root.join(prove::RECORD))?);
+        let place = Place::committed(root);
+        let states = list.harness.iter().map(|harness| prove::State::of(harness, &proofs, &place, &present)).collect();
+        Ok(Self { root, present, list, proofs, states })
+    }
+
+    fn judged(&self) -> impl Iterator<Item = (&prove::Harness, &prove::State)> {
+        self.list.harness.iter().zip(&self.states)
+    }
+}
 
 /// Each with what reads it.
 pub(super) const RECORDS: [(&str, Read); 6] = [
-    ("proofs", proofs),
+    ("proofs", |shared| Ok(proofs(shared))),
     ("mistakes", named_mistakes),
     ("contracts", contracts),
     ("inject", faults),
@@ -25,11 +54,7 @@ pub(super) const RECORDS: [(&str, Read); 6] = [
     ("mutants", mutated),
 ];
 
-fn present(root: &Path) -> Result<Present, Box<dyn std::error::Error>> {
-    Ok(Present { sources: prove::Sources::load(root)?, configuration: prove::default_configuration()? })
-}
-
-fn proofs(root: &Path) -> Outcome {
+fn proofs(shared: &Shared<'_>) -> Standing {
     let mut standing = Standing::new(
         "proofs",
         "Proofs by model checking",
@@ -37,16 +62,12 @@ fn proofs(root: &Path) -> Outcome {
         "supervise prove",
         "The object code, timing, the hardware; the step as one piece; the arithmetic of the kernels where a harness says any.",
     );
-    let list = prove::List::load(root)?;
-    let record = prove::Record::load(&root.join(prove::RECORD))?;
-    if record.proofs.is_empty() {
-        return Ok(standing);
+    if shared.proofs.proofs.is_empty() {
+        return standing;
     }
-    let (present, place) = (present(root)?, Place::committed(root));
     let (mut proved, mut bounded, mut open, mut stale) = (0_usize, 0_usize, 0_usize, 0_usize);
-    for harness in &list.harness {
-        let now = prove::State::of(harness, &record, &place, &present);
-        match &now {
+    for (harness, now) in shared.judged() {
+        match now {
             prove::State::Ran(Verdict::Proved) if harness.extent.starts_with("exhaustive") => proved += 1,
             prove::State::Ran(Verdict::Proved) => bounded += 1,
             prove::State::Stale(_) => stale += 1,
@@ -57,20 +78,21 @@ fn proofs(root: &Path) -> Outcome {
             standing.open.push(format!("{}: {now}", harness.name));
         }
     }
-    let bad = list.harness.len().saturating_sub(proved + bounded + open + stale);
+    let bad = shared.states.len().saturating_sub(proved + bounded + open + stale);
     standing.state = State::of(if stale > 0 { vec![format!("sources of {stale} harnesses")] } else { Vec::new() });
-    standing.figure("harnesses", list.harness.len(), "harnesses");
+    standing.figure("harnesses", shared.states.len(), "harnesses");
     standing.figure("proved", proved, "proved for all inputs and time");
     standing.figure("bounded", bounded, "proved within a bound that they say");
     standing.figure("open", open, "known not to hold as stated");
     standing.figure("stale", stale, "proved on other sources");
     standing.figure("bad", bad, "failed, vacuous, undecided, unsupported or not run");
-    let seconds: u64 = record.proofs.iter().map(|proof| proof.seconds).sum();
+    let seconds: u64 = shared.proofs.proofs.iter().map(|proof| proof.seconds).sum();
     standing.figure("minutes", seconds.div_ceil(60), "minutes on one core");
-    Ok(standing)
+    standing
 }
 
-fn named_mistakes(root: &Path) -> Outcome {
+fn named_mistakes(shared: &Shared<'_>) -> Outcome {
+    let root = shared.root;
     let mut standing = Standing::new(
         "mistakes",
         "Mistakes planted against the proofs",
@@ -82,15 +104,10 @@ fn named_mistakes(root: &Path) -> Outcome {
     if record.named.is_empty() {
         return Ok(standing);
     }
-    let present = present(root)?;
-    let (harnesses, proofs) = (prove::List::load(root)?, prove::Record::load(&root.join(prove::RECORD))?);
-    let place = Place::committed(root);
-    let proved: BTreeSet<String> = (harnesses.harness.iter())
-        .filter(|harness| prove::State::of(harness, &proofs, &place, &present).is_proved())
-        .map(|harness| harness.name.clone())
-        .collect();
+    let proved: BTreeSet<String> =
+        shared.judged().filter(|(_, state)| state.is_proved()).map(|(harness, _)| harness.name.clone()).collect();
     let mut changed = Vec::new();
-    for finding in mistakes::check(&list, &record, root, &present.sources, &proved)? {
+    for finding in mistakes::check(&list, &record, root, &shared.present.sources, &proved)? {
         if let mistakes::Finding::Stale(count) = finding {
             changed.push(format!("sources of {count} planted mistakes"));
         } else {
@@ -121,8 +138,9 @@ struct Contract {
     verdict: String,
 }
 
-fn contracts(root: &Path) -> Outcome {
+fn contracts(shared: &Shared<'_>) -> Outcome {
     const FILE: &str = "proofs/creusot/record.json";
+    let root = shared.root;
     let mut standing = Standing::new(
         "contracts",
         "Contracts of the arithmetic kernels",
@@ -156,7 +174,8 @@ fn contracts(root: &Path) -> Outcome {
     Ok(standing)
 }
 
-fn faults(root: &Path) -> Outcome {
+fn faults(shared: &Shared<'_>) -> Outcome {
+    let root = shared.root;
     let mut standing = Standing::new(
         "inject",
         "Faults injected into correct drives",
@@ -211,7 +230,8 @@ fn faults(root: &Path) -> Outcome {
     Ok(standing)
 }
 
-fn reached(root: &Path) -> Outcome {
+fn reached(shared: &Shared<'_>) -> Outcome {
+    let root = shared.root;
     let mut standing = Standing::new(
         "coverage",
         "Structural coverage of decide and vet",
@@ -247,7 +267,8 @@ fn reached(root: &Path) -> Outcome {
     Ok(standing)
 }
 
-fn mutated(root: &Path) -> Outcome {
+fn mutated(shared: &Shared<'_>) -> Outcome {
+    let root = shared.root;
     let mut standing = Standing::new(
         "mutants",
         "Mutants against the tests",

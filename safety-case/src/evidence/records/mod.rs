@@ -140,9 +140,11 @@ pub fn standings(
     say: &mut dyn FnMut(&str),
 ) -> Result<Vec<Standing>, Box<dyn std::error::Error>> {
     let mut all = Vec::new();
+    say("records");
+    let shared = committed::Shared::load(root)?;
     for (name, read) in committed::RECORDS {
         say(&format!("record: {name}"));
-        all.push(read(root)?);
+        all.push(read(&shared)?);
     }
     all.push(trace(made.trace));
     all.push(at_hand::tests(root, made)?);
