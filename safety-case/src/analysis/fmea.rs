@@ -13,7 +13,7 @@ pub(super) const FILE: &str = "fmea.toml";
 pub struct Failure {
     /// Id, `FM-nn`.
     pub id: String,
-    /// The source files that it speaks of, from the root of the project.
+    /// The source files, or folders of them, that it speaks of, from the root of the project.
     pub parts: Vec<String>,
     /// What is wrong.
     pub mode: String,

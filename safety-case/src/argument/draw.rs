@@ -15,8 +15,11 @@ const COLUMN: usize = 294;
 const LINE: usize = 15;
 const PAD: usize = 8;
 const GAP: usize = 14;
+const DOUBT: usize = 6;
 /// Characters in a line of a box.
 const CHARACTERS: usize = 34;
+/// The same of a context, which is narrower: it stands below its node, and a line goes past it.
+const FEWER: usize = 29;
 /// A sheet that is higher is divided.
 const HIGHEST: usize = 960;
 
@@ -138,7 +141,7 @@ impl Drawing<'_> {
         let (argument, module) = (self.argument, self.module);
         let again = !self.seen.insert(id.to_owned());
         let away = !module.nodes.contains_key(id);
-        let mut high = self.node(id, x, y, again);
+        let mut high = self.node(id, (x, y), again, (WIDE, CHARACTERS));
         if again {
             return high;
         }
@@ -146,7 +149,7 @@ impl Drawing<'_> {
         let contexts = module.nodes.get(id).map(|node| node.in_context_of.clone()).unwrap_or_default();
         for context in contexts.iter().filter(|_| !away) {
             let top = y + high + GAP / 2;
-            let more = self.node(context, x + 2 * GAP, top, false);
+            let more = self.node(context, (x + 2 * GAP, top), false, (WIDE - 2 * GAP, FEWER));
             let path = format!("M{} {} V{} H{}", x + GAP, y + high, top + more / 2, x + 2 * GAP);
             // The line of a second context begins where the first one ended: from the same node, in the same column.
             self.edges.push(json!({"path": path, "class": "context"}));
@@ -165,6 +168,8 @@ impl Drawing<'_> {
             let first = self.boxes.get(before).and_then(|shape| shape.get("height")).and_then(Value::as_u64);
             let half = usize::try_from(first.unwrap_or(0)).unwrap_or(0) / 2;
             let path = if doubts {
+                // Beside the line of support, not on it.
+                let (turn, middle) = (turn + DOUBT, middle + DOUBT);
                 format!("M{left} {} H{turn} V{middle} H{}", top + half, x + WIDE)
             } else {
                 format!("M{} {middle} H{turn} V{} H{left}", x + WIDE, top + half)
@@ -176,11 +181,11 @@ impl Drawing<'_> {
     }
 
     /// One box; how high it is.
-    fn node(&mut self, id: &str, x: usize, y: usize, again: bool) -> usize {
+    fn node(&mut self, id: &str, (x, y): (usize, usize), again: bool, (wide, most): (usize, usize)) -> usize {
         let Some((module, node)) = self.argument.find(id) else { return 0 };
         let element = Element::of(id);
         let away = module.name != self.module.name;
-        let mut lines = wrapped(&node.text, CHARACTERS);
+        let mut lines = wrapped(&node.text, most);
         if again || away {
             // Said in full at its own place.
             if lines.len() > 2 {
@@ -209,10 +214,10 @@ impl Drawing<'_> {
         let doubt = matches!(element, Some(Element::CounterGoal | Element::CounterSolution));
         let tone = self.tones.get(id).copied().unwrap_or(if node.undeveloped { "open" } else { "" });
         self.boxes.push(json!({
-            "id": id, "x": x, "y": y, "width": WIDE, "height": high, "right": x + WIDE, "bottom": y + high,
+            "id": id, "x": x, "y": y, "width": wide, "height": high, "right": x + wide, "bottom": y + high,
             "shape": shape, "tone": tone, "doubt": doubt, "defeated": node.defeated, "undeveloped": node.undeveloped,
             "away": again || away, "note": beside, "rows": rows, "left": x + PAD + 4, "first": y + PAD + 11,
-            "end": x + WIDE - PAD - 4, "letter": match element {
+            "end": x + wide - PAD - 4, "letter": match element {
                 Some(Element::Assumption) => "A", Some(Element::Justification) => "J", _ => "",
             },
             "about": node.text,

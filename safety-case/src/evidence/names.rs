@@ -103,7 +103,10 @@ impl<'a> Names<'a> {
             let is_head = name != "supervisor/src/lib.rs" && name.ends_with("/src/lib.rs");
             let is_rust = path.extension().is_some_and(|extension| extension == "rs");
             let is_part = name.contains("/src/") && is_rust && !is_head;
-            if is_part && !named.contains(name.as_str()) {
+            // A row may speak of a whole folder.
+            let is_named =
+                path.ancestors().any(|part| named.contains(part.to_string_lossy().replace('\\', "/").as_str()));
+            if is_part && !is_named {
                 findings.push(Finding::new(
                     "failure modes",
                     &name,

@@ -2,8 +2,9 @@
 //!
 //! A record is one JSON object. `sources` says of what it is: a digest of the shipped sources, or an object with digests by the
 //! names of [`Sources`]: `shipped`, `configuration`, `bench`, `faults`. Figures are the numbers and words at its top, or
-//! in an object `figures`; `open` is a list of what is open.
+//! in an object `figures`; of a table of rows the sum of each column. `open` is a list of what is open.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use serde_json::Value;
@@ -81,6 +82,15 @@ fn fill(root: &Path, standing: &mut Standing) -> Result<(), ToolError> {
             standing.figure(name, value, &name.replace('_', " "));
         }
     }
+    for (name, rows) in own.iter().filter(|(name, _)| !matches!(name.as_str(), "figures" | "sources" | "wanted")) {
+        for (column, sum) in columns(rows) {
+            standing.figure(
+                &format!("{name}.{column}"),
+                sum,
+                &format!("{}, all: {}", name.replace('_', " "), column.replace('_', " ")),
+            );
+        }
+    }
     // What the campaigns of the fuzzers write: a row for each target.
     for row in fields.get("targets").and_then(Value::as_array).into_iter().flatten().filter_map(Value::as_object) {
         let target = row.get("target").and_then(Value::as_str).unwrap_or("?");
@@ -93,6 +103,19 @@ fn fill(root: &Path, standing: &mut Standing) -> Result<(), ToolError> {
     let open = fields.get("open").and_then(Value::as_array).into_iter().flatten();
     standing.open.extend(open.filter_map(scalars));
     Ok(())
+}
+
+/// The sum of each column of an object whose values are rows of numbers.
+fn columns(rows: &Value) -> BTreeMap<&str, u64> {
+    let mut sums: BTreeMap<&str, u64> = BTreeMap::new();
+    let rows = rows.as_object().into_iter().flat_map(|rows| rows.values().filter_map(Value::as_object));
+    for (column, number) in rows.flatten() {
+        if let Some(number) = number.as_u64() {
+            let sum = sums.entry(column).or_default();
+            *sum = sum.saturating_add(number);
+        }
+    }
+    sums
 }
 
 /// What is not as it was when the record was made; a record that says nothing of its sources can not be told from a stale one.
@@ -134,7 +157,14 @@ mod tests {
 
     use serde_json::{Value, json};
 
-    use super::{Sources, changed};
+    use super::{Sources, changed, columns};
+
+    #[test]
+    fn rows_are_summed_by_column() {
+        let rows = json!({"city": {"runs": 2, "disturbed": 1}, "coach": {"runs": 3, "disturbed": 0, "word": "x"}});
+        assert_eq!(columns(&rows), [("disturbed", 1), ("runs", 5)].into());
+        assert_eq!(columns(&json!(7)), [].into());
+    }
 
     #[test]
     fn a_record_is_fresh_only_with_the_digests_of_the_present_sources() -> Result<(), Box<dyn std::error::Error>> {
