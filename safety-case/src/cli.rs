@@ -1,6 +1,7 @@
 //! The command line.
 
 mod coverage;
+mod evidence;
 mod fuzz;
 mod inject;
 mod mutants;
@@ -11,6 +12,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use supervisor::{Record, ResetCause};
 
 pub use coverage::Coverage;
+pub use evidence::Evidence;
 pub use fuzz::Fuzz;
 pub use inject::Inject;
 pub use mutants::Mutants;
@@ -38,6 +40,7 @@ Examples:
   supervise inject --html target/inject.html         faults in correct drives, and what becomes of the bus
   supervise trace --html target/trace.html           which code, proof and test belongs to which requirement
   supervise coverage --html target/coverage.html     which statements, branches and conditions the tests reach
+  supervise evidence                                 all of it in one folder, open items first
   supervise fuzz --seconds 600                       fuzz every target for ten minutes
 
 Exit codes: 0 done; 1 the analysis or the traceability has findings, a harness is not proved, or a bar of the design is not
@@ -193,6 +196,9 @@ pub enum Command {
     /// Measure which statements, branches and conditions of the decision the tests reach
     #[command(long_about = coverage::ABOUT)]
     Coverage(Coverage),
+    /// Collect everything that speaks for the supervisor, open items first, and check that it still does
+    #[command(long_about = evidence::ABOUT)]
+    Evidence(Evidence),
 }
 
 /// Arguments of `replay`.

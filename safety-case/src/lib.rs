@@ -4,10 +4,12 @@
 //! Where to look: a line of a log, `candump`; how frames become inputs, `road`; when to step, `grid.rs`; the loop,
 //! `replay.rs`; what is worth seeing over time, `lanes` and `runs.rs`; what people read, `timeline.rs`,
 //! `summary.rs`, `document.rs` (JSON), `page` (HTML). Which code and test belongs to which requirement, `trace`.
-//! What becomes of injected faults, `inject`.
+//! What becomes of injected faults, `inject`. Why all of it shows that the goals are kept, `argument`; all of
+//! it in one folder, `evidence`.
 #![forbid(unsafe_code)]
 
 pub mod analysis;
+pub mod argument;
 pub mod candump;
 pub mod cli;
 pub mod commands;
@@ -18,7 +20,9 @@ pub mod cycle;
 pub mod difference;
 pub mod digest;
 pub mod document;
+pub mod drives;
 pub mod error;
+pub mod evidence;
 pub mod fuzz;
 pub mod grid;
 pub mod inject;

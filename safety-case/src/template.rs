@@ -22,3 +22,14 @@ pub fn render(template: &str, mut context: Value) -> Result<String, minijinja::E
     environment.add_template("page", template)?;
     environment.get_template("page")?.render(Serde(context))
 }
+
+/// Fills a template that stands alone, such as a picture.
+///
+/// # Errors
+/// The template does not render.
+pub fn fill(template: &str, context: Value) -> Result<String, minijinja::Error> {
+    let mut environment = Environment::new();
+    environment.set_auto_escape_callback(|_| AutoEscape::Html);
+    environment.add_template("alone", template)?;
+    environment.get_template("alone")?.render(Serde(context))
+}

@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 
 use super::model::{Analysis, Asil, Claim, Event, Role, Timer, Timing};
+use super::{fmea, limitations, methods, tools};
 
 /// What kind of defect a finding is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -36,6 +37,10 @@ pub enum Rule {
     Unverified,
     /// A reading and a requirement do not refer to each other.
     ReadingLink,
+    /// The confidence level of a tool does not follow from impact and detection.
+    ToolLevel,
+    /// A proposed reading that no limitation names, or the reverse.
+    Unlisted,
     /// A word that claims more than the analysis shows, or a level that is not said to be assumed.
     Overclaim,
 }
@@ -67,19 +72,26 @@ pub fn check(analysis: &Analysis) -> Vec<Finding> {
     check_assumptions(analysis, &mut findings);
     check_timing(&analysis.timing, analysis, &mut findings);
     check_readings(analysis, &mut findings);
-    check_words(&analysis.texts, &mut findings);
+    check_the_making(analysis, &mut findings);
+    findings.0.extend(check_words(&analysis.texts));
     findings.0.sort();
     findings.0
 }
 
-struct Findings(Vec<Finding>);
+/// What is found, in the making.
+pub(super) struct Findings(Vec<Finding>);
 
 impl Findings {
-    fn add(&mut self, rule: Rule, place: &str, message: impl Into<String>) {
+    pub(super) fn add(&mut self, rule: Rule, place: &str, message: impl Into<String>) {
         self.0.push(Finding { rule, place: place.to_owned(), message: message.into() });
     }
 
-    fn unknown<'a>(&mut self, place: &str, named: impl IntoIterator<Item = &'a String>, known: &BTreeSet<&str>) {
+    pub(super) fn unknown<'a>(
+        &mut self,
+        place: &str,
+        named: impl IntoIterator<Item = &'a String>,
+        known: &BTreeSet<&str>,
+    ) {
         for id in named {
             if !known.contains(id.as_str()) {
                 self.add(Rule::UnknownId, place, format!("refers to {id}, which nothing defines"));
@@ -87,11 +99,35 @@ impl Findings {
         }
     }
 
-    fn blank(&mut self, place: &str, what: &str, text: &str) {
+    pub(super) fn blank(&mut self, place: &str, what: &str, text: &str) {
         if text.trim().is_empty() {
             self.add(Rule::Incomplete, place, format!("has no {what}"));
         }
     }
+}
+
+/// The ids that may be referred to.
+pub(super) struct Known<'a> {
+    pub goals: BTreeSet<&'a str>,
+    pub requirements: BTreeSet<&'a str>,
+    pub assumptions: BTreeSet<&'a str>,
+    pub readings: BTreeSet<&'a str>,
+    pub faults: BTreeSet<&'a str>,
+}
+
+/// Failure modes, tools, methods, limitations and risks.
+fn check_the_making(analysis: &Analysis, findings: &mut Findings) {
+    let known = Known {
+        goals: ids(&analysis.goals, |goal| &goal.id),
+        requirements: ids(&analysis.requirements, |requirement| &requirement.id),
+        assumptions: ids(&analysis.assumptions, |assumption| &assumption.id),
+        readings: ids(&analysis.readings, |reading| &reading.id),
+        faults: analysis.faults.iter().map(String::as_str).collect(),
+    };
+    fmea::check(&analysis.failures, &known, findings);
+    tools::check(&analysis.tools, findings);
+    methods::check(&analysis.methods, findings);
+    limitations::check(&analysis.limitations, &analysis.risks, &analysis.readings, &known, findings);
 }
 
 /// The ids of one kind.
@@ -99,36 +135,62 @@ fn ids<'a, T>(entries: &'a [T], id: impl Fn(&'a T) -> &'a String) -> BTreeSet<&'
     entries.iter().map(|entry| id(entry).as_str()).collect()
 }
 
+impl Analysis {
+    /// Every id but those of requirements, with what it must begin with.
+    pub fn all_ids(&self) -> impl Iterator<Item = (&str, &str)> {
+        let Self { item, hazards, goals, assumptions, timing, readings, .. } = self;
+        let Self { failures, tools, methods, limitations, risks, .. } = self;
+        let events =
+            hazards.iter().flat_map(|hazard| hazard.event.iter().map(|event| (hazard.id.as_str(), event.id.as_str())));
+        let rows = methods.iter().flat_map(|table| table.row.iter().map(|row| (table.id.as_str(), row.id.as_str())));
+        (item.interface.iter().map(|entry| ("IF-", entry.id.as_str())))
+            .chain(item.mode.iter().map(|entry| ("OM-", entry.id.as_str())))
+            .chain(hazards.iter().map(|entry| ("HZ-", entry.id.as_str())))
+            .chain(events)
+            .chain(goals.iter().map(|entry| ("SG-", entry.id.as_str())))
+            .chain(assumptions.iter().map(|entry| ("AOU-", entry.id.as_str())))
+            .chain(timing.timer.iter().map(|entry| ("TM-", entry.id.as_str())))
+            .chain(timing.chain.iter().map(|entry| ("CH-", entry.id.as_str())))
+            .chain(readings.iter().map(|entry| ("R-", entry.id.as_str())))
+            .chain(failures.iter().map(|entry| ("FM-", entry.id.as_str())))
+            .chain(tools.iter().map(|entry| ("TL-", entry.id.as_str())))
+            .chain(methods.iter().map(|entry| ("MT-", entry.id.as_str())))
+            .chain(rows)
+            .chain(limitations.iter().map(|entry| ("LIM-", entry.id.as_str())))
+            .chain(risks.iter().map(|entry| ("RR-", entry.id.as_str())))
+    }
+
+    /// Every id that a text may name: those of all entries, of the faults, and the groups of requirements.
+    #[must_use]
+    pub fn ids(&self) -> BTreeSet<String> {
+        let mut ids: BTreeSet<String> = self.all_ids().map(|(_, id)| id.to_owned()).collect();
+        for requirement in &self.requirements {
+            ids.insert(requirement.id.trim_end_matches(|last: char| last.is_ascii_lowercase()).to_owned());
+            ids.insert(requirement.id.clone());
+        }
+        ids.extend(self.faults.iter().cloned());
+        ids
+    }
+}
+
 fn check_ids(analysis: &Analysis, findings: &mut Findings) {
-    let Analysis { item, hazards, goals, requirements, assumptions, timing, readings, .. } = analysis;
-    let mut all: Vec<(&str, &str)> = Vec::new();
-    all.extend(item.interface.iter().map(|entry| ("IF-", entry.id.as_str())));
-    all.extend(item.mode.iter().map(|entry| ("OM-", entry.id.as_str())));
-    all.extend(hazards.iter().map(|entry| ("HZ-", entry.id.as_str())));
-    all.extend(
-        hazards.iter().flat_map(|hazard| hazard.event.iter().map(|event| (hazard.id.as_str(), event.id.as_str()))),
-    );
-    all.extend(goals.iter().map(|entry| ("SG-", entry.id.as_str())));
-    all.extend(assumptions.iter().map(|entry| ("AOU-", entry.id.as_str())));
-    all.extend(timing.timer.iter().map(|entry| ("TM-", entry.id.as_str())));
-    all.extend(timing.chain.iter().map(|entry| ("CH-", entry.id.as_str())));
-    all.extend(readings.iter().map(|entry| ("R-", entry.id.as_str())));
-    for (prefix, id) in &all {
+    let mut seen = BTreeSet::new();
+    let mut twice = |id: &str, findings: &mut Findings| {
+        if !seen.insert(id.to_owned()) {
+            findings.add(Rule::DuplicateId, id, "is defined more than once");
+        }
+    };
+    for (prefix, id) in analysis.all_ids() {
         if id.strip_prefix(prefix).is_none_or(str::is_empty) {
             findings.add(Rule::IdForm, id, format!("does not begin with {prefix}"));
         }
+        twice(id, findings);
     }
-    for requirement in requirements {
+    for requirement in &analysis.requirements {
         if !is_requirement_id(&requirement.id) {
             findings.add(Rule::IdForm, &requirement.id, "is not of the form AREA-7a");
         }
-    }
-    all.extend(requirements.iter().map(|entry| ("", entry.id.as_str())));
-    let mut seen = BTreeSet::new();
-    for (_, id) in all {
-        if !seen.insert(id) {
-            findings.add(Rule::DuplicateId, id, "is defined more than once");
-        }
+        twice(&requirement.id, findings);
     }
 }
 
@@ -302,22 +364,28 @@ fn check_readings(analysis: &Analysis, findings: &mut Findings) {
     }
 }
 
-/// Words that this analysis must not use of itself, in lower case.
-const FORBIDDEN: [&str; 6] =
+/// Words that nothing here may use of itself, in lower case.
+pub const FORBIDDEN: [&str; 6] =
     ["certified", "certification", "asil d compliant", "asil-d compliant", "asil-d-compliant", "asil compliant"];
 
-fn check_words(texts: &[(String, String)], findings: &mut Findings) {
+/// Where these texts, each with its name, claim more than is shown.
+#[must_use]
+pub fn check_words(texts: &[(String, String)]) -> Vec<Finding> {
+    let mut findings = Vec::new();
     for (file, text) in texts {
         for (number, line) in (1_usize..).zip(text.lines()) {
-            let place = format!("{file}:{number}");
+            let mut add = |message: String| {
+                findings.push(Finding { rule: Rule::Overclaim, place: format!("{file}:{number}"), message });
+            };
             let lower = line.to_lowercase();
             for word in FORBIDDEN.iter().filter(|word| lower.contains(*word)) {
-                findings.add(Rule::Overclaim, &place, format!("says \"{word}\""));
+                add(format!("says \"{word}\""));
             }
             let level = ["asil a", "asil b", "asil c", "asil d"].iter().any(|level| lower.contains(level));
             if level && !lower.contains("assumed") {
-                findings.add(Rule::Overclaim, &place, "names a level without saying that it is assumed");
+                add("names a level without saying that it is assumed".to_owned());
             }
         }
     }
+    findings
 }

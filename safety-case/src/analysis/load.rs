@@ -7,7 +7,11 @@ use std::path::Path;
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 
+use super::fmea::{self, Failure};
+use super::limitations::{self, LimitationFile};
+use super::methods::{self, MethodTable};
 use super::model::{Analysis, Assumption, Goal, Hazard, Reading, Requirement};
+use super::tools::{self, Tool};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -35,6 +39,31 @@ pub(super) struct ReadingFile {
     reading: Vec<Reading>,
 }
 
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct FailureFile {
+    failure: Vec<Failure>,
+}
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ToolFile {
+    tool: Vec<Tool>,
+}
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct MethodFile {
+    table: Vec<MethodTable>,
+}
+/// Of the faults their ids alone; the rest is read where they are injected.
+#[derive(Default, Deserialize)]
+struct FaultFile {
+    fault: Vec<FaultId>,
+}
+#[derive(Deserialize)]
+struct FaultId {
+    id: String,
+}
+
 /// Why an analysis can not be loaded.
 #[derive(Debug, PartialEq, Eq)]
 pub struct AnalysisError {
@@ -58,7 +87,8 @@ impl fmt::Display for AnalysisError {
 
 impl std::error::Error for AnalysisError {}
 
-/// Reads the analysis from `folder`: the seven files of the top level and every `.toml` in `requirements`.
+/// Reads the analysis from `folder`: the six files of the top level that every analysis has, every `.toml` in `requirements`,
+/// and what is there of failure modes, tools, methods, limitations and faults.
 ///
 /// # Errors
 /// A file that is missing, can not be read, is no TOML, or has a key too many, a key too few or a value of the wrong kind.
@@ -74,7 +104,37 @@ pub fn load(folder: &Path) -> Result<Analysis, AnalysisError> {
     for path in requirement_files(&folder.join("requirements"))? {
         requirements.extend(read::<RequirementFile>(&path, &mut texts)?.requirement);
     }
-    Ok(Analysis { item, hazards, goals, requirements, assumptions, timing, readings, texts })
+    let failures = read_if_there::<FailureFile>(&folder.join(fmea::FILE), &mut texts)?.failure;
+    let tools = read_if_there::<ToolFile>(&folder.join(tools::FILE), &mut texts)?.tool;
+    let methods = read_if_there::<MethodFile>(&folder.join(methods::FILE), &mut texts)?.table;
+    let LimitationFile { limitation: limitations, risk: risks } =
+        read_if_there(&folder.join(limitations::FILE), &mut texts)?;
+    let faults = read_if_there::<FaultFile>(&folder.join("faults.toml"), &mut texts)?.fault;
+    let faults = faults.into_iter().map(|fault| fault.id).collect();
+    Ok(Analysis {
+        item,
+        hazards,
+        goals,
+        requirements,
+        assumptions,
+        timing,
+        readings,
+        failures,
+        tools,
+        methods,
+        limitations,
+        risks,
+        faults,
+        texts,
+    })
+}
+
+/// The same as [`read`]; nothing, where there is no such file.
+fn read_if_there<T: DeserializeOwned + Default>(
+    path: &Path,
+    texts: &mut Vec<(String, String)>,
+) -> Result<T, AnalysisError> {
+    if path.exists() { read(path, texts) } else { Ok(T::default()) }
 }
 
 /// The `.toml` files of a folder in the order of their names.

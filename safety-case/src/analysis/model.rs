@@ -1,6 +1,13 @@
 //! The shape of the data: one struct per entry, closed against unknown keys.
 
+use std::collections::BTreeSet;
+
 use serde::{Deserialize, Serialize};
+
+use super::fmea::Failure;
+use super::limitations::{Limitation, Risk};
+use super::methods::MethodTable;
+use super::tools::Tool;
 
 /// The item: what is analysed.
 #[derive(Debug, Deserialize, Serialize)]
@@ -411,6 +418,18 @@ pub struct Analysis {
     pub timing: Timing,
     /// Readings.
     pub readings: Vec<Reading>,
+    /// Failure modes of the supervisor's parts.
+    pub failures: Vec<Failure>,
+    /// Tools.
+    pub tools: Vec<Tool>,
+    /// Methods.
+    pub methods: Vec<MethodTable>,
+    /// Limitations and anomalies.
+    pub limitations: Vec<Limitation>,
+    /// Risks that are left.
+    pub risks: Vec<Risk>,
+    /// The ids of the faults to inject.
+    pub faults: BTreeSet<String>,
     /// Name and text of each file, comments included, for the words.
     #[serde(skip)]
     pub texts: Vec<(String, String)>,

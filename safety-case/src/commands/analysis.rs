@@ -32,6 +32,11 @@ pub fn run(arguments: &AnalysisArgs) -> Outcome {
         (analysis.requirements.len(), "requirements"),
         (analysis.assumptions.len(), "assumptions of use"),
         (analysis.readings.len(), "readings of the sources"),
+        (analysis.failures.len(), "failure modes of the supervisor's parts"),
+        (analysis.tools.len(), "tools"),
+        (analysis.methods.iter().map(|table| table.row.len()).sum(), "methods answered"),
+        (analysis.limitations.len(), "known limitations and anomalies"),
+        (analysis.risks.len(), "risks that are left"),
         (faults, "faults to inject"),
         (findings.len(), "findings"),
     ] {

@@ -1,132 +1,26 @@
 //! `supervise` alone: the drives that ship with the project.
 
-use std::fmt::Write as _;
-use std::io::Write as _;
-use std::path::{Path, PathBuf};
-
-use serde::Deserialize;
-use supervisor::{Record, ResetCause, Sealed};
-
-use super::{Outcome, print};
-use crate::page::{IndexEntry, duration, index};
-use crate::replay::{Report, Request, create, run as replay};
-
-/// The list that ships beside the drives.
-#[derive(Debug, Default, Deserialize)]
-struct Manifest {
-    #[serde(default)]
-    drive: Vec<Drive>,
-}
-
-/// What the list says of a drive; the simulation that made it wrote this.
-#[derive(Clone, Debug, Deserialize)]
-struct Drive {
-    name: String,
-    title: Option<String>,
-    description: Option<String>,
-    interventions: Option<u64>,
-    digest: Option<String>,
-}
+use super::{Outcome, print, root};
+use crate::drives::replayed;
 
 /// Runs it.
 ///
 /// # Errors
 /// If there are no drives, one cannot be read, or the pages cannot be written.
 pub fn run() -> Outcome {
-    let project = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap_or(Path::new("."));
-    let folder = project.join("tests").join("drives");
-    let target = project.join("target").join("supervise");
-    let logs = logs(&folder);
-    if logs.is_empty() {
-        return Err(format!(
-            "no *.candump.gz in {}; replay a log of your own with `supervise replay LOG`",
-            folder.display()
-        )
-        .into());
+    let root = root()?;
+    let target = root.join("target").join("supervise");
+    let mut failure = None;
+    let drives = replayed(root, &target, &mut |told| {
+        failure = failure.take().or_else(|| print(format_args!("{told}\n")).err());
+    })?;
+    if let Some(error) = failure {
+        return Err(error.into());
     }
-    let manifest = std::fs::read_to_string(folder.join("drives.toml")).unwrap_or_default();
-    let manifest: Manifest = toml::from_str(&manifest).unwrap_or_default();
-    let mut entries = Vec::new();
-    let mut as_simulated = true;
-    for log in logs {
-        let file = log.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-        let name = file.trim_end_matches(".candump.gz").to_owned();
-        let drive = manifest.drive.iter().find(|drive| drive.name == name);
-        let title = drive.and_then(|drive| drive.title.clone()).unwrap_or_else(|| name.clone());
-        let request = Request {
-            logs: vec![log],
-            bus: None,
-            map: None,
-            dbc: None,
-            sealed: Sealed::from_default()?,
-            boot: ResetCause::PowerOn,
-            record: Some(Record::None),
-            json: Some(target.join(format!("{name}.json"))),
-            html: Some(target.join(format!("{name}.html"))),
-            title: title.clone(),
-            timeline: 2000,
-            digest: drive.is_some_and(|drive| drive.digest.is_some()),
-            progress: false,
-        };
-        let report = replay(&request)?;
-        let (text, same) = told(&name, &title, &report, drive);
-        as_simulated &= same;
-        print(text)?;
-        entries.push(IndexEntry {
-            title,
-            description: drive.and_then(|drive| drive.description.clone()).unwrap_or_default(),
-            page: format!("{name}.html"),
-            json: format!("{name}.json"),
-            interventions: report.summary.interventions(),
-            longest: longest(&report),
-            length: duration(report.span.1.saturating_sub(report.span.0)),
-        });
-    }
-    let page = target.join("index.html");
-    create(&page)?.write_all(index(&entries)?.as_bytes())?;
-    print(format!("\nOpen {}\n", page.display()))?;
-    if !as_simulated {
+    print(format!("\nOpen {}\n", target.join("index.html").display()))?;
+    if !drives.iter().all(|drive| drive.same) {
         eprintln!("supervise: warning: the supervisor has changed since the drives were made; to make them anew:");
         eprintln!("    cargo run --release -p supervisor-tests --bin make-drives");
     }
     Ok(0)
-}
-
-/// The logs of the folder, in the order of their names.
-fn logs(folder: &Path) -> Vec<PathBuf> {
-    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
-    let mut logs: Vec<PathBuf> = entries.filter(|file| file.to_string_lossy().ends_with(".candump.gz")).collect();
-    logs.sort();
-    logs
-}
-
-fn longest(report: &Report) -> String {
-    report.summary.longest().map_or(String::new(), |longest| {
-        format!("{:.2}–{:.2} s  {}  {}", longest.from_s, longest.to_s, longest.channel, longest.text)
-    })
-}
-
-/// A few lines on a drive, and whether its verdicts are those of the simulation that made it.
-fn told(name: &str, title: &str, report: &Report, drive: Option<&Drive>) -> (String, bool) {
-    let interventions = report.summary.interventions();
-    let mut text = String::new();
-    let length = duration(report.span.1.saturating_sub(report.span.0));
-    let count = if interventions == 0 { "no".to_owned() } else { interventions.to_string() };
-    // Writing to a String cannot fail.
-    let _ = writeln!(text, "{title}  ({name}, {length})");
-    let _ = writeln!(text, "    {count} interventions, {} shorter than 4 cycles", report.summary.brief());
-    if interventions > 0 {
-        let _ = writeln!(text, "    longest: {}", longest(report));
-    }
-    let mut same = true;
-    if let Some(expected) = drive.and_then(|drive| drive.digest.as_deref()) {
-        same = report.digest.map(|digest| format!("{digest:016x}")).as_deref() == Some(expected);
-        let word = if same { "the same as" } else { "NOT those" };
-        let _ = writeln!(text, "    every verdict {word} in the simulation that made it ({expected})");
-    }
-    if let Some(expected) = drive.and_then(|drive| drive.interventions).filter(|expected| *expected != interventions) {
-        same = false;
-        let _ = writeln!(text, "    the simulation had {expected} interventions");
-    }
-    (text, same)
 }

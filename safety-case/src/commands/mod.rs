@@ -5,6 +5,7 @@ mod config;
 mod cost;
 mod coverage;
 mod drives;
+mod evidence;
 mod fuzz;
 mod inject;
 mod limits;
@@ -51,6 +52,7 @@ pub fn run(cli: &Cli) -> ExitCode {
         Some(Command::Cost(arguments)) => cost::run(arguments),
         Some(Command::Inject(arguments)) => inject::run(arguments),
         Some(Command::Coverage(arguments)) => coverage::run(arguments),
+        Some(Command::Evidence(arguments)) => evidence::run(arguments),
     };
     match outcome {
         Ok(code) => ExitCode::from(code),

@@ -61,18 +61,10 @@ struct Known {
 
 impl Known {
     fn of(analysis: &Analysis) -> Self {
-        let Analysis { item, hazards, goals, requirements, assumptions, timing, readings, .. } = analysis;
-        let groups = requirements.iter().filter_map(|entry| Id::parse(&entry.id)).map(|id| id.group().to_string());
-        let requirements = requirements.iter().map(|entry| entry.id.clone()).chain(groups).collect();
-        let mut others: BTreeSet<String> = hazards.iter().map(|entry| entry.id.clone()).collect();
-        others.extend(hazards.iter().flat_map(|entry| &entry.event).map(|entry| entry.id.clone()));
-        others.extend(goals.iter().map(|entry| entry.id.clone()));
-        others.extend(assumptions.iter().map(|entry| entry.id.clone()));
-        others.extend(timing.timer.iter().map(|entry| entry.id.clone()));
-        others.extend(timing.chain.iter().map(|entry| entry.id.clone()));
-        others.extend(readings.iter().map(|entry| entry.id.clone()));
-        others.extend(item.interface.iter().map(|entry| entry.id.clone()));
-        others.extend(item.mode.iter().map(|entry| entry.id.clone()));
+        let groups =
+            analysis.requirements.iter().filter_map(|entry| Id::parse(&entry.id)).map(|id| id.group().to_string());
+        let requirements = analysis.requirements.iter().map(|entry| entry.id.clone()).chain(groups).collect();
+        let others = analysis.all_ids().map(|(_, id)| id.to_owned()).collect();
         Self { requirements, others }
     }
 }

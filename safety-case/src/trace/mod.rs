@@ -38,6 +38,7 @@ use crate::analysis::{Analysis, AnalysisError, load};
 use crate::error::ToolError;
 
 pub use finding::{Finding, Rule};
+pub(crate) use id::named;
 pub use json::json;
 pub use page::page;
 pub use scan::{Kind, Place, Scan, Tag, Test, scan};

@@ -2,6 +2,7 @@
 
 mod commands;
 mod common;
+mod evidence;
 mod prove;
 mod replay;
 mod robust;
