@@ -5,4 +5,5 @@ mod common;
 mod prove;
 mod replay;
 mod robust;
+mod simulate;
 mod trace;
