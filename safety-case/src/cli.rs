@@ -1,10 +1,12 @@
 //! The command line.
 
 mod coverage;
+mod disturb;
 mod evidence;
 mod fuzz;
 mod inject;
 mod mutants;
+mod simulate;
 
 use std::path::PathBuf;
 
@@ -12,10 +14,12 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use supervisor::{Record, ResetCause};
 
 pub use coverage::Coverage;
+pub use disturb::Disturb;
 pub use evidence::Evidence;
 pub use fuzz::Fuzz;
 pub use inject::Inject;
 pub use mutants::Mutants;
+pub use simulate::Simulate;
 
 use crate::prove::Solver;
 
@@ -38,6 +42,8 @@ Examples:
   supervise config seal my.toml my.bin               seal a configuration
   supervise analysis                                 check the safety analysis
   supervise inject --html target/inject.html         faults in correct drives, and what becomes of the bus
+  supervise simulate --all --html target/simulate.html   every scenario, with curves and what must come of it
+  supervise disturb --check                          whom the supervisor disturbs: the committed record
   supervise trace --html target/trace.html           which code, proof and test belongs to which requirement
   supervise coverage --html target/coverage.html     which statements, branches and conditions the tests reach
   supervise evidence                                 all of it in one folder, open items first
@@ -193,6 +199,12 @@ pub enum Command {
     /// Inject faults into correct drives at random times, and judge what becomes of the bus
     #[command(long_about = inject::ABOUT)]
     Inject(Inject),
+    /// Drive the scenarios of tests/scenarios in closed loop, and judge what must come of them
+    #[command(long_about = simulate::ABOUT)]
+    Simulate(Simulate),
+    /// Count how often a correct main controller and an ordinary driver are disturbed
+    #[command(long_about = disturb::ABOUT)]
+    Disturb(Disturb),
     /// Measure which statements, branches and conditions of the decision the tests reach
     #[command(long_about = coverage::ABOUT)]
     Coverage(Coverage),

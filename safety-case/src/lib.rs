@@ -4,7 +4,7 @@
 //! Where to look: a line of a log, `candump`; how frames become inputs, `road`; when to step, `grid.rs`; the loop,
 //! `replay.rs`; what is worth seeing over time, `lanes` and `runs.rs`; what people read, `timeline.rs`,
 //! `summary.rs`, `document.rs` (JSON), `page` (HTML). Which code and test belongs to which requirement, `trace`.
-//! What becomes of injected faults, `inject`. Why all of it shows that the goals are kept, `argument`; all of
+//! What becomes of injected faults, `inject`; of scenarios, `simulate`; whom the supervisor disturbs, `disturb`. Why all of it shows that the goals are kept, `argument`; all of
 //! it in one folder, `evidence`.
 #![forbid(unsafe_code)]
 
@@ -19,6 +19,7 @@ pub mod coverage;
 pub mod cycle;
 pub mod difference;
 pub mod digest;
+pub mod disturb;
 pub mod document;
 pub mod drives;
 pub mod error;
@@ -38,6 +39,9 @@ pub mod prove;
 pub mod replay;
 pub mod road;
 pub mod runs;
+pub mod simulate;
+pub mod spread;
+pub mod statistics;
 pub mod stretches;
 pub mod summary;
 pub mod template;

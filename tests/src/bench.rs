@@ -12,7 +12,7 @@ use supervisor::{
 use crate::controller::{Controller, Pace};
 use crate::drive::{Answer, Cycle, Scenario};
 use crate::link::{Clocked, Link, Stamped};
-use crate::plant::{CYCLE_MS, Plant};
+use crate::plant::{CYCLE_MS, Plant, Truth};
 
 /// Who sends a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,6 +37,10 @@ pub trait Hooks {
     fn inputs(&mut self, _now_ms: u32, _inputs: &mut Inputs, _scene: &mut Scene) {}
     /// The frames of one node in this cycle.
     fn frames(&mut self, _now_ms: u32, _node: Node, _frames: &mut Vec<Frame>) {}
+    /// What of these frames is there before this cycle, each with its time; none: all of them, at once.
+    fn carries(&mut self, _now_ms: u32, _frames: &[Frame]) -> Option<Vec<Stamped>> {
+        None
+    }
     /// Whether the supervisor runs in this cycle: reads frames, steps, sends.
     fn runs(&mut self, _now_ms: u32) -> bool {
         true
@@ -121,6 +125,13 @@ impl<'a> Bench<'a> {
         self
     }
 
+    /// The same with another main controller, from now on.
+    #[must_use]
+    pub fn driven_by(mut self, controller: Controller) -> Self {
+        self.controller = controller;
+        self
+    }
+
     /// Keeps every frame from now on.
     #[must_use]
     pub fn with_log(mut self) -> Self {
@@ -132,6 +143,12 @@ impl<'a> Bench<'a> {
     #[must_use]
     pub fn into_log(self) -> Vec<Stamped> {
         self.link.into_log()
+    }
+
+    /// The truth of this moment.
+    #[must_use]
+    pub fn truth(&self) -> Truth {
+        self.plant.truth()
     }
 
     /// Time of the last cycle, in ms.

@@ -25,6 +25,8 @@ pub enum Act {
     CruiseSwitch(bool),
     /// Presses or lets go the "set" button of the cruise control.
     Set(bool),
+    /// Turns the steering wheel towards this angle in degrees, left positive; nobody turns it before.
+    Wheel(f64),
 }
 
 /// An act and when it happens, in ms of the drive.
@@ -80,6 +82,8 @@ pub struct Driver<'a> {
     pub cruise: bool,
     /// "Set" pressed.
     pub set: bool,
+    /// Angle in degrees towards which the steering wheel is turned; none: nobody turns it.
+    pub wheel: Option<f64>,
 }
 
 impl<'a> Driver<'a> {
@@ -100,6 +104,7 @@ impl<'a> Driver<'a> {
             epb_switch: EpbSwitch::Idle,
             cruise: false,
             set: false,
+            wheel: None,
         }
     }
 
@@ -119,7 +124,8 @@ impl<'a> Driver<'a> {
         self.brake += (self.brake_goal - self.brake).clamp(-FOOT_PER_MS, FOOT_PER_MS);
     }
 
-    fn act(&mut self, act: Act, at: u32) {
+    /// Does this at this time, in ms.
+    pub fn act(&mut self, act: Act, at: u32) {
         match act {
             Act::Sit(sits) => (self.sits, self.sat_since) = (sits, at),
             Act::Accelerator(share) => (self.goal, self.hold) = (share, None),
@@ -130,6 +136,7 @@ impl<'a> Driver<'a> {
             Act::EpbSwitch(position) => self.epb_switch = position,
             Act::CruiseSwitch(on) => self.cruise = on,
             Act::Set(pressed) => self.set = pressed,
+            Act::Wheel(angle) => self.wheel = Some(angle),
         }
     }
 

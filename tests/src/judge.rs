@@ -1,7 +1,7 @@
 //! What came of a drive: interventions, refused misdeeds, and whether the bus stayed safe.
 
 use supervisor::{
-    Channel, ContactorRequest, EpbRequest, EpbState, GearRequest, Level, Occupancy, Percent, Reason, Verdict,
+    Channel, ContactorRequest, EpbRequest, EpbState, GearRequest, Level, Occupancy, Percent, Reason, Verdict, Verdicts,
 };
 
 use crate::drive::{Answer, Cycle};
@@ -64,6 +64,45 @@ pub fn interventions(cycles: &[Cycle]) -> Vec<Stretch> {
     stretches(cycles).into_iter().filter(|stretch| stretch.cycles > allowed(stretch.from_ms)).collect()
 }
 
+/// [`interventions`] of a run that is too long to keep: cycle by cycle.
+#[derive(Clone, Debug, Default)]
+pub struct Counter {
+    open: [Option<Stretch>; 12],
+    found: Vec<Stretch>,
+    last: Option<Verdicts>,
+}
+
+impl Counter {
+    /// One cycle.
+    pub fn see(&mut self, cycle: &Cycle) {
+        self.last = Some(cycle.answer.verdicts);
+        for (open, (channel, verdict)) in self.open.iter_mut().zip(cycle.answer.verdicts.iter()) {
+            if verdict.passed() {
+                self.found.extend(open.take().filter(|stretch| stretch.cycles > GRACE_CYCLES));
+            } else {
+                let stretch = open.get_or_insert(Stretch { channel, from_ms: cycle.now_ms, cycles: 0, first: verdict });
+                stretch.cycles += 1;
+            }
+        }
+    }
+
+    /// Those that begin to count with the last cycle, each with the reason that it then has: the first one may be
+    /// another, that of a frame after a pause say.
+    pub fn new_ones(&self) -> impl Iterator<Item = (Stretch, Reason)> {
+        let new = self.open.iter().flatten().filter(|stretch| stretch.cycles == GRACE_CYCLES + 1);
+        new.map(|stretch| (*stretch, self.last.map_or(stretch.first, |last| last.of(stretch.channel)).reason))
+    }
+
+    /// The interventions so far, those that still last among them, in order of their beginning.
+    #[must_use]
+    pub fn found(&self) -> Vec<Stretch> {
+        let lasting = self.open.iter().flatten().filter(|stretch| stretch.cycles > GRACE_CYCLES);
+        let mut all: Vec<Stretch> = self.found.iter().chain(lasting).copied().collect();
+        all.sort_by_key(|stretch| (stretch.from_ms, stretch.channel));
+        all
+    }
+}
+
 /// The verdicts that a misdeed should have met and did not: none, if it was refused as expected.
 #[must_use]
 pub fn unmet(misdeed: &Misdeed, cycles: &[Cycle]) -> Vec<(Channel, Reason)> {
@@ -122,8 +161,10 @@ pub fn hazards(cycles: &[Cycle]) -> Vec<(u32, Hazard)> {
         let drives = matches!(outputs.gear, GearRequest::Drive | GearRequest::Reverse | GearRequest::Park);
         let warns = outputs.warnings.seat_leave && outputs.warnings.hazard_flashers;
         let leave = status.occupancy == Occupancy::Leave;
-        note(now_ms, Hazard::Collision, truth.gap.is_some_and(|gap| gap <= 0.0));
-        let closes = before.is_some_and(|before| truth.gap < before.truth.gap);
+        // What stands beside the lane is passed, not hit.
+        let gap = |truth: &Truth| truth.ahead.map(|ahead| ahead.gap);
+        note(now_ms, Hazard::Collision, gap(&truth).is_some_and(|gap| gap <= 0.0));
+        let closes = before.is_some_and(|before| gap(&truth) < gap(&before.truth));
         note(now_ms, Hazard::LevelFell, falls && rolls && closes);
         note(now_ms, Hazard::ReleasedWithoutDriver, (empty && outputs.epb.request == EpbRequest::Release) || loosens);
         note(now_ms, Hazard::K1BeforeK4, opens_k1 && k4_closed);

@@ -99,10 +99,8 @@ impl Link {
         self.controller.encode_commands(now, commands, &mut |frame| controller.push(frame));
         hooks.frames(now_ms, Node::Sensors, &mut sensors);
         hooks.frames(now_ms, Node::Controller, &mut controller);
-        let first = u64::from(now_ms.saturating_sub(CYCLE_MS)) * 1000 + FIRST_US;
-        let stamps = (0..).map(|number: u64| first + (number * SPACING_US).min(LATEST_US));
-        let stamped = |(frame, micros)| Stamped { micros, frame };
-        let frames: Vec<Stamped> = sensors.into_iter().chain(controller).zip(stamps).map(stamped).collect();
+        sensors.append(&mut controller);
+        let frames = hooks.carries(now_ms, &sensors).unwrap_or_else(|| at_once(now_ms, &sensors));
         if let Some(log) = &mut self.log {
             log.extend_from_slice(&frames);
         }
@@ -131,4 +129,11 @@ impl Link {
     pub fn into_log(self) -> Vec<Stamped> {
         self.log.unwrap_or_default()
     }
+}
+
+/// A bus that carries everything at once.
+fn at_once(now_ms: u32, frames: &[Frame]) -> Vec<Stamped> {
+    let first = u64::from(now_ms.saturating_sub(CYCLE_MS)) * 1000 + FIRST_US;
+    let stamps = (0..).map(|number: u64| first + (number * SPACING_US).min(LATEST_US));
+    frames.iter().zip(stamps).map(|(frame, micros)| Stamped { micros, frame: *frame }).collect()
 }

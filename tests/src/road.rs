@@ -1,9 +1,8 @@
-//! What stands or moves on the road ahead, and what radar and camera see of it.
+//! What stands or moves on the road ahead, and where it stands in the image of the camera.
 
-use supervisor::{CameraObject, Class, ClosingCmS, Count, DistanceCm, Millis, OffsetCm, PixelBox, RadarObject, Scene};
+use supervisor::{Class, PixelBox};
 
-use crate::number::{to_i16, to_u16};
-use crate::plant::Parameters;
+use crate::number::to_u16;
 
 /// What a thing on the road truly is: neither sensor measures its size.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -67,15 +66,6 @@ impl Obstacle {
     }
 }
 
-/// Radar and camera: each samples the road with its own period, and its objects age until the next sample.
-#[derive(Clone, Debug)]
-pub struct Eyes {
-    scene: Scene,
-    radar_at: u32,
-    camera_at: u32,
-    updates: Vec<u8>,
-}
-
 /// The forward camera as it is built in, in metres, degrees and pixels: said here a second time, in other units and
 /// other arithmetic than the supervisor's calibration, which the bus must fit.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -130,69 +120,5 @@ impl Camera {
         let [top, bottom] = [top, bottom].map(|edge| to_u16(edge.clamp(0.0, rows)));
         let (width, height) = (right.checked_sub(left)?, bottom.checked_sub(top)?);
         (width > 0 && height > 0).then_some(PixelBox { left, top, width, height })
-    }
-}
-
-impl Eyes {
-    /// For so many obstacles; nothing has been sampled.
-    #[must_use]
-    pub fn new(obstacles: usize) -> Self {
-        Self { scene: Scene::clear(), radar_at: 0, camera_at: 0, updates: vec![0; obstacles] }
-    }
-
-    /// Samples the road where a period has elapsed. `front` and `speed` are those of the bus.
-    pub fn sample(&mut self, now_ms: u32, road: &[Obstacle], front: f64, speed: f64, parameters: &Parameters) {
-        let seen = |obstacle: &Obstacle, range: f64| {
-            let gap = obstacle.rear(now_ms) - front;
-            (obstacle.present(now_ms) && gap < range).then_some(gap.max(0.0))
-        };
-        let closing = |obstacle: &Obstacle| ClosingCmS::new(to_i16((speed - obstacle.speed) * 100.0));
-        if now_ms.is_multiple_of(parameters.radar_ms) {
-            self.radar_at = now_ms;
-            self.scene.radar.clear();
-            for (obstacle, updates) in road.iter().zip(&mut self.updates) {
-                let Some(gap) = seen(obstacle, parameters.radar_range_m) else {
-                    *updates = 0;
-                    continue;
-                };
-                *updates = updates.saturating_add(1);
-                // A list that is full drops what comes last; the drives have one or two objects.
-                let _ = self.scene.radar.push(RadarObject {
-                    distance: DistanceCm::new(to_u16(gap * 100.0)),
-                    offset: OffsetCm::new(to_i16(obstacle.offset * 100.0)),
-                    closing: closing(obstacle),
-                    age: Millis::ZERO,
-                    updates: Count::new(*updates),
-                });
-            }
-        }
-        if now_ms.is_multiple_of(parameters.camera_ms) {
-            self.camera_at = now_ms;
-            self.scene.camera.clear();
-            for obstacle in road {
-                let Some(gap) = seen(obstacle, parameters.camera_range_m) else { continue };
-                let Some(pixels) = Camera::STRAIGHT.pixels(&obstacle.body, gap, obstacle.offset) else { continue };
-                let _ = self.scene.camera.push(CameraObject {
-                    pixels,
-                    class: obstacle.body.class,
-                    distance: DistanceCm::new(to_u16(gap * 100.0)),
-                    closing: closing(obstacle),
-                    age: Millis::ZERO,
-                });
-            }
-        }
-    }
-
-    /// The lists as they stand, with their ages.
-    #[must_use]
-    pub fn scene(&self, now_ms: u32) -> Scene {
-        let mut scene = self.scene.clone();
-        for object in &mut scene.radar {
-            object.age = Millis::new(now_ms.saturating_sub(self.radar_at));
-        }
-        for object in &mut scene.camera {
-            object.age = Millis::new(now_ms.saturating_sub(self.camera_at));
-        }
-        scene
     }
 }

@@ -5,9 +5,11 @@
 mod common;
 use common::*;
 use supervisor_perceive::{Boxed, Lens, matches};
+use supervisor_tests::bend::Pose;
 use supervisor_tests::number::kmh as metres_per_second;
 use supervisor_tests::plant::Parameters;
-use supervisor_tests::road::{Body, Camera, Eyes, Obstacle};
+use supervisor_tests::road::{Body, Camera, Obstacle};
+use supervisor_tests::sensing::Eyes;
 
 const BODIES: [(&str, Body); 4] =
     [("car", Body::CAR), ("bus", Body::BUS), ("pedestrian", Body::PEDESTRIAN), ("cyclist", Body::CYCLIST)];
@@ -95,7 +97,8 @@ fn the_bus_matches_what_it_drives_up_to() {
             for now_ms in 0..9_000_u32 {
                 let front = speed * f64::from(now_ms) / 1000.0;
                 let gap = obstacle.rear(now_ms) - front;
-                eyes.sample(now_ms, &road, front, speed, &Parameters::DEFAULT);
+                let pose = Pose { front, speed, curvature: 0.0, bends: &[] };
+                eyes.sample(now_ms, &road, &pose, &Parameters::DEFAULT);
                 let scene = eyes.scene(now_ms);
                 if !now_ms.is_multiple_of(10) || scene.camera.is_empty() || gap < 3.0 {
                     continue;

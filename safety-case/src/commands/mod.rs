@@ -4,6 +4,7 @@ mod analysis;
 mod config;
 mod cost;
 mod coverage;
+mod disturb;
 mod drives;
 mod evidence;
 mod fuzz;
@@ -13,6 +14,7 @@ mod mistakes;
 mod mutants;
 mod prove;
 mod replay;
+mod simulate;
 mod trace;
 
 use std::fmt::Display;
@@ -51,6 +53,8 @@ pub fn run(cli: &Cli) -> ExitCode {
         Some(Command::Trace(arguments)) => trace::run(arguments),
         Some(Command::Cost(arguments)) => cost::run(arguments),
         Some(Command::Inject(arguments)) => inject::run(arguments),
+        Some(Command::Simulate(arguments)) => simulate::run(arguments),
+        Some(Command::Disturb(arguments)) => disturb::run(arguments),
         Some(Command::Coverage(arguments)) => coverage::run(arguments),
         Some(Command::Evidence(arguments)) => evidence::run(arguments),
     };

@@ -6,4 +6,5 @@ mod evidence;
 mod prove;
 mod replay;
 mod robust;
+mod simulate;
 mod trace;

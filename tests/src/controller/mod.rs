@@ -35,15 +35,23 @@ pub struct Controller {
     /// The cruise control, not the driver's pedal, governed it last.
     governed_by_cruise: bool,
     lamps_ms: u32,
+    /// It warns of a collision, and leaves the braking to the driver.
+    leaves_braking: bool,
 }
 
 impl Controller {
+    /// One that has no collision mitigation of its own: it warns, and leaves the braking to the driver.
+    #[must_use]
+    pub fn without_mitigation() -> Self {
+        Self { leaves_braking: true, ..Self::default() }
+    }
+
     /// One cycle: what every channel is asked for, on these inputs.
     pub fn step(&mut self, now: Millis, inputs: &Inputs, scene: &Scene) -> Outputs {
         let view = View::of(inputs);
         self.leave.update(inputs, &view);
         self.mitigation.update(scene, &view, !self.cruise.steers());
-        let obliged = self.mitigation.running() || self.leave.running;
+        let obliged = self.mitigates() || self.leave.running;
         self.cruise.update(inputs, &view, self.leave.confirmed() && !obliged);
 
         let brake = self.brake(inputs, &view);
@@ -75,9 +83,15 @@ impl Controller {
         }
     }
 
+    /// A level runs, and it brakes for it.
+    fn mitigates(&self) -> bool {
+        self.mitigation.running() && !self.leaves_braking
+    }
+
     /// The greatest demand; electric first, as far as its limit goes (S2 §1), friction for the rest.
     fn brake(&self, inputs: &Inputs, view: &View) -> ServiceBrake {
-        let demand = self.mitigation.demand().max(self.leave.demand(view));
+        let mitigation = if self.mitigates() { self.mitigation.demand() } else { 0.0 };
+        let demand = mitigation.max(self.leave.demand(view));
         if demand <= 0.0 {
             return ServiceBrake::NEUTRAL;
         }
@@ -104,6 +118,8 @@ impl Controller {
         }
         self.governed_by_cruise = automated.is_some();
         let wanted = if refused || !ready { 0.0 } else { automated.unwrap_or(pedal) };
+        // S1 §2.3: no more than the drive says that it can.
+        let wanted = wanted.min(view.torque_limit);
         // Per cycle of 10 ms; frames come every 50 ms.
         self.torque = wanted.min(self.torque + TORQUE_RISE / 5.0);
         let torque = Percent::new(to_u8(self.torque.floor()));

@@ -27,6 +27,8 @@ pub struct View {
     pub key: Option<Key>,
     /// Magnitude of the steering angle in 0.1°.
     pub angle: Option<u16>,
+    /// Greatest torque that the drive says it can give, in %; 0 if unknown.
+    pub torque_limit: f64,
     /// Something that the bus needs is unknown: the fault lamp is due.
     pub fault: bool,
 }
@@ -60,6 +62,7 @@ impl View {
             gear: inputs.gear.known(),
             key: inputs.key.known(),
             angle: inputs.steering_angle.known().map(|angle| angle.raw().unsigned_abs()),
+            torque_limit: inputs.drive_limit.known().map_or(0.0, |limit| f64::from(limit.raw())),
             fault: (!occupied && !vacant) || speed.is_none() || accelerator.is_none() || brake.is_none(),
         }
     }

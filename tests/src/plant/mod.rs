@@ -8,85 +8,34 @@
 mod parameters;
 mod parts;
 mod sense;
+mod stage;
+mod truth;
 
 pub use parameters::Parameters;
 pub use parts::{DeadTime, Lag, Mover, STEP_S};
+pub use truth::{Ahead, Hands, Truth};
 
 use supervisor::{
-    BrakeMode, Class, ContactorRequest, DrivingMode, EpbRequest, EpbState, EpbSwitch, Gear, GearRequest, Outputs,
-    RetarderMode,
+    BrakeMode, ContactorRequest, DrivingMode, EpbRequest, EpbState, Gear, GearRequest, Outputs, RetarderMode,
 };
 
+use crate::bend::{Bend, Pose, curvature};
 use crate::driver::{Driver, Script};
 use crate::misdeed::Deed;
 use crate::number::nearest;
-use crate::road::{Eyes, Obstacle};
+use crate::road::Obstacle;
+use crate::sensing::Eyes;
 
 /// Gravity, in m/s².
 const GRAVITY: f64 = 9.81;
+/// How fast hands turn the steering wheel, in degrees per millisecond (own: 300°/s).
+const WHEEL_PER_MS: f64 = 0.3;
+/// No wheel slips below this speed, in m/s (own), and the brake system reports it for this much longer, in ms (own).
+const SLIP_LEAST: f64 = 1.0;
+/// See [`SLIP_LEAST`].
+const SLIP_HOLD_MS: u32 = 300;
 /// Milliseconds of the model in one cycle of the supervisor.
 pub const CYCLE_MS: u32 = 10;
-
-/// The truth of one moment, for pictures and for judging whether the bus stayed safe.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Truth {
-    /// Speed in m/s, forward positive.
-    pub speed: f64,
-    /// Acceleration in m/s².
-    pub acceleration: f64,
-    /// Way driven, in m.
-    pub position: f64,
-    /// Gap to the nearest obstacle present ahead, in m; negative after a collision.
-    pub gap: Option<f64>,
-    /// The seat sensors see a driver.
-    pub seat: [bool; 2],
-    /// The parking brake, `None` on its way.
-    pub epb: Option<EpbState>,
-    /// The gear engaged.
-    pub gear: Gear,
-    /// K1 and K4 are closed.
-    pub closed: [bool; 2],
-    /// The steering-wheel angle in degrees.
-    pub angle: f64,
-    /// Torque that the drive gives, as a share of its greatest.
-    pub torque: f64,
-    /// Deceleration by all brakes, in m/s².
-    pub braking: f64,
-    /// Current from the battery, in A.
-    pub current: f64,
-    /// The nearest obstacle in the corridor.
-    pub ahead: Option<Ahead>,
-    /// What the driver does.
-    pub hands: Hands,
-}
-
-/// What stands or moves in the corridor ahead.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Ahead {
-    /// Gap in m; negative after a collision.
-    pub gap: f64,
-    /// Closing speed in m/s.
-    pub closing: f64,
-    /// What it is.
-    pub class: Class,
-}
-
-/// What the driver does with hands and feet.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Hands {
-    /// Accelerator, 0 to 1.
-    pub accelerator: f64,
-    /// Brake pedal, 0 to 1.
-    pub brake: f64,
-    /// Gear selector.
-    pub selector: Gear,
-    /// Switch of the parking brake.
-    pub epb_switch: EpbSwitch,
-    /// Cruise control switched on.
-    pub cruise: bool,
-    /// "Set" pressed.
-    pub set: bool,
-}
 
 /// Half-width of the corridor ahead of the bus, in m: half of its width, and a hand's breadth (own).
 const CORRIDOR_M: f64 = 1.5;
@@ -120,6 +69,9 @@ pub struct Plant<'a> {
     current: Lag,
     steers: bool,
     automated: bool,
+    bends: Vec<Bend>,
+    /// So long the wheels count as slipping, in ms.
+    slips_ms: u32,
     /// What fails in this cycle.
     pushes: bool,
     fades: bool,
@@ -155,6 +107,8 @@ impl<'a> Plant<'a> {
             current: Lag::default(),
             steers: false,
             automated: false,
+            bends: Vec::new(),
+            slips_ms: 0,
             pushes: false,
             fades: false,
         }
@@ -177,7 +131,9 @@ impl<'a> Plant<'a> {
             self.driver.tick(self.now_ms, self.speed);
             self.tick(outputs);
             self.forget_behind();
-            self.eyes.sample(self.now_ms, &self.road, self.position, self.speed, &self.parameters);
+            let (curvature, bends) = (curvature(self.angle), self.bends.as_slice());
+            let pose = Pose { front: self.position, speed: self.speed, curvature, bends };
+            self.eyes.sample(self.now_ms, &self.road, &pose, &self.parameters);
         }
         (self.pushes, self.fades) = (false, false);
     }
@@ -245,10 +201,13 @@ impl<'a> Plant<'a> {
         let told = f64::from(outputs.drive.torque.raw()) / 100.0;
         let given = if self.pushes { told.max(0.5) } else { told };
         let asked = if powered && direction != 0.0 { given } else { 0.0 };
-        let ceiling = p.full_power_w / (p.full_force_n * self.speed.abs().max(0.1));
-        let drive_force = self.drive.follow(asked.min(ceiling), p.drive_lag_s) * p.full_force_n * direction;
+        let drive_force = self.drive.follow(asked.min(self.ceiling()), p.drive_lag_s) * p.full_force_n * direction;
 
-        let braking = self.braking(outputs);
+        if let (false, Some(goal)) = (self.steers, self.driver.wheel) {
+            self.angle += (goal - self.angle).clamp(-WHEEL_PER_MS, WHEEL_PER_MS);
+        }
+
+        let braking = self.on_the_road(outputs);
         self.braked = braking;
         let traction = drive_force * self.speed - p.mass_kg * self.electric.value() * self.speed.abs();
         let auxiliaries = if powered { p.auxiliaries_w } else { 0.0 };
@@ -268,6 +227,20 @@ impl<'a> Plant<'a> {
         self.acceleration = (self.speed - before) / STEP_S;
         self.position += f64::midpoint(before, self.speed) * STEP_S;
         self.measured_deceleration.follow(-self.acceleration * before.signum(), 0.03);
+    }
+
+    /// Deceleration by all brakes, as far as the road takes it, in m/s².
+    fn on_the_road(&mut self, outputs: &Outputs) -> f64 {
+        let (asked, most) = (self.braking(outputs), self.parameters.grip * GRAVITY);
+        let slips = asked > most && self.speed.abs() > SLIP_LEAST;
+        self.slips_ms = if slips { SLIP_HOLD_MS } else { self.slips_ms.saturating_sub(1) };
+        asked.min(most)
+    }
+
+    /// Torque that the power leaves, as a share of the greatest; may be beyond 1.
+    fn ceiling(&self) -> f64 {
+        let p = &self.parameters;
+        p.full_power_w / (p.full_force_n * self.speed.abs().max(0.1))
     }
 
     /// Deceleration by all brakes, in m/s².

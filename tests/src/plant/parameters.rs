@@ -14,10 +14,14 @@ pub struct Parameters {
     pub drag: f64,
     /// Slope, rise per length; positive uphill.
     pub slope: f64,
+    /// Friction between tyre and road, deceleration per gravity; infinite: no wheel ever slips (the shipped drives).
+    pub grip: f64,
     /// Wheel force at 100 % torque (own: 1.2 m/s² at 18 t; S4 table 2 asks for 0.1 m/s² at least).
     pub full_force_n: f64,
     /// Greatest power at the wheels (own).
     pub full_power_w: f64,
+    /// The drive says what its power leaves of its torque; else it always says 100 % (the shipped drives).
+    pub power_told: bool,
     /// Time constant of the drive: 95 % after 300 ms (S4 table 2: ≤ 500 ms).
     pub drive_lag_s: f64,
     /// Dead time of the service brake (own; S1's figures are compared for 0 to 0.7 s).
@@ -70,8 +74,10 @@ impl Parameters {
         rolling: 0.008,
         drag: 3.12,
         slope: 0.0,
+        grip: f64::INFINITY,
         full_force_n: 22_900.0,
         full_power_w: 180_000.0,
+        power_told: false,
         drive_lag_s: 0.1,
         brake_dead_s: 0.15,
         brake_lag_s: 0.15,

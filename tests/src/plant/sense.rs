@@ -50,7 +50,7 @@ impl Plant<'_> {
             hv_current: Signal::Known(CurrentDeciA::new(to_i16(self.current.value() * 10.0))),
             drive_stopped: Signal::Known(self.unpowered_ms >= self.parameters.drive_stop_ms),
             auxiliaries_stopped: Signal::Known(self.unpowered_ms >= self.parameters.auxiliaries_stop_ms),
-            drive_limit: Signal::Known(if powered { Percent::FULL } else { Percent::ZERO }),
+            drive_limit: Signal::Known(if powered { self.torque_left() } else { Percent::ZERO }),
             executed_torque: Signal::Known(Percent::new(to_u8(self.drive.value() * 100.0))),
             electric_limit: decel(self.electric_limit()),
             friction_limit: decel(self.parameters.friction_decel),
@@ -61,7 +61,7 @@ impl Plant<'_> {
                 self.friction.value() / self.parameters.friction_decel * 160.0,
             ))); 2],
             deceleration: decel(self.measured_deceleration.value().max(0.0)),
-            abs: Signal::Known(false),
+            abs: Signal::Known(self.slips_ms > 0),
             asr: Signal::Known(false),
             stability: Signal::Known(false),
             ebs_red: Signal::Known(false),
@@ -74,5 +74,13 @@ impl Plant<'_> {
             second_sender: false,
         };
         (inputs, self.eyes.scene(self.now_ms))
+    }
+    /// What the drive says of the torque that its power leaves.
+    fn torque_left(&self) -> Percent {
+        if self.parameters.power_told {
+            Percent::new(to_u8((self.ceiling().min(1.0) * 100.0).floor()))
+        } else {
+            Percent::FULL
+        }
     }
 }

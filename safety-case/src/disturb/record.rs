@@ -1,0 +1,51 @@
+//! The committed result of a campaign, and whether it speaks of the present sources.
+
+use std::fs;
+use std::path::Path;
+
+use super::tally::{Sources, Tally};
+use crate::error::ToolError;
+use crate::prove::{default_configuration, sha256, shipped, tokens};
+
+/// Where it stands.
+pub const RECORD: &str = "safety-case/records/disturb.json";
+
+/// Bus, driver, road, main controller and disturbance.
+const BENCH: [&str; 1] = ["tests/src"];
+/// The facade: part of what is measured, and of no proof.
+const FACADE: [&str; 1] = ["supervisor/src"];
+
+impl Sources {
+    /// Of the present sources.
+    ///
+    /// # Errors
+    /// A file cannot be read or is no Rust.
+    pub fn load(root: &Path) -> Result<Self, ToolError> {
+        let shipped = format!("{} {}", shipped(root)?, tokens(root, &FACADE)?);
+        Ok(Self {
+            shipped: sha256(shipped.as_bytes()),
+            configuration: default_configuration()?,
+            bench: tokens(root, &BENCH)?,
+        })
+    }
+
+    /// What has changed between these and others.
+    #[must_use]
+    pub fn differences(&self, other: &Self) -> Vec<&'static str> {
+        let pairs = [
+            ("the shipped sources", &self.shipped, &other.shipped),
+            ("the default configuration", &self.configuration, &other.configuration),
+            ("the bus on the desk, its driver or the disturbance", &self.bench, &other.bench),
+        ];
+        pairs.into_iter().filter(|(_, one, two)| one != two).map(|(what, ..)| what).collect()
+    }
+}
+
+/// Reads a result.
+///
+/// # Errors
+/// The file cannot be read or is none.
+pub fn read(path: &Path) -> Result<Tally, String> {
+    let text = fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))?;
+    Tally::read(&text).map_err(|error| format!("{}: {error}", path.display()))
+}
