@@ -1304,7 +1304,7 @@ SupervisorCode supervisor_watchdog(struct SupervisorState *state,
                                    uint8_t question,
                                    uint8_t *answer);
 
-// Starts a supervisor in the caller's memory (SELF-9a). Once after every reset; whatever the memory held is given up.
+// Starts a supervisor in the caller's memory (SELF-9). Once after every reset; whatever the memory held is given up.
 //
 // `bytes` is `sizeof` the state, `abi_version` is `SUPERVISOR_ABI_VERSION`, `reset_cause` a `SupervisorResetCause`,
 // `record` the `SupervisorRecord` that was persisted, or `SUPERVISOR_RECORD_BROKEN` if it fails its CRC. The

@@ -16,7 +16,7 @@ use crate::types::{SUPERVISOR_ABI_VERSION, SupervisorDiagnosis, SupervisorState}
 /// What the persisted record is when it fails its CRC.
 const BROKEN: u8 = 255;
 
-/// Starts a supervisor in the caller's memory (SELF-9a). Once after every reset; whatever the memory held is given up.
+/// Starts a supervisor in the caller's memory (SELF-9). Once after every reset; whatever the memory held is given up.
 ///
 /// `bytes` is `sizeof` the state, `abi_version` is `SUPERVISOR_ABI_VERSION`, `reset_cause` a `SupervisorResetCause`,
 /// `record` the `SupervisorRecord` that was persisted, or `SUPERVISOR_RECORD_BROKEN` if it fails its CRC. The
@@ -52,17 +52,22 @@ pub unsafe extern "C" fn supervisor_init(
             record => Some(Record::from_code(record).ok_or(SupervisorCode::Value)?),
         };
         let sealed = Sealed::from_sealed(sealed.values()).map_err(refused)?;
-        place.keep(|slot| build(slot, sealed, cause, record));
+        place.keep(|slot| build(slot, &sealed, cause, record));
         Ok(SupervisorCode::Ok)
     })
 }
 
 /// On its own, so that the compiler writes into the slot and not past the stack.
 #[inline(never)]
-fn build(slot: &mut MaybeUninit<State>, sealed: Sealed, cause: ResetCause, record: Option<Record>) -> &mut State {
+fn build<'s>(
+    slot: &'s mut MaybeUninit<State>,
+    sealed: &Sealed,
+    cause: ResetCause,
+    record: Option<Record>,
+) -> &'s mut State {
     let receiver = Receiver::new(sealed.intact().unwrap_or(&Config::DEFAULT));
     slot.write(State {
-        supervisor: Supervisor::new(sealed, cause, record),
+        supervisor: Supervisor::new(*sealed, cause, record),
         receiver,
         sender: Sender::new(),
         last: None,
