@@ -6,7 +6,7 @@ mod library;
 use std::error::Error;
 use std::process::Command;
 
-use library::{STRICT, built, c_compiler, compiler, output, package, program, run};
+use library::{STRICT, built, c_compiler, compiler, not_run, output, package, program, run};
 use supervisor::Sealed;
 
 type Outcome = Result<(), Box<dyn Error>>;
@@ -24,7 +24,7 @@ fn c_programs_find_the_calls_as_the_header_says() -> Outcome {
     println!("{said}");
     assert!(said.contains(" passed, 0 failed"), "{said}");
     let Some(cxx) = compiler("CXX", &["c++", "g++", "clang++"]) else {
-        println!("NOT RUN: the tests as C++: no C++ compiler is here");
+        not_run("the tests as C++", "no C++ compiler is here");
         return Ok(());
     };
     let object = built().join("boundary-cxx.o");
@@ -58,7 +58,7 @@ fn the_first_frame_is_that_of_the_guide() -> Outcome {
 fn no_call_touches_what_is_not_the_callers() -> Outcome {
     let Some(cc) = c_compiler("the search for stray accesses") else { return Ok(()) };
     if Command::new("valgrind").arg("--version").output().is_err() {
-        println!("NOT RUN: the search for stray accesses: valgrind is not here");
+        not_run("the search for stray accesses", "valgrind is not here");
         return Ok(());
     }
     std::fs::create_dir_all(built())?;
@@ -78,7 +78,7 @@ fn no_panic_is_linked() -> Outcome {
     let Some(cc) = c_compiler("the search for a panic") else { return Ok(()) };
     let program = program(&cc, "boundary-symbols", &["-std=c99"], &[package().join("tests/c/boundary.c")])?;
     let Ok(symbols) = run(Command::new("nm").arg("-C").arg(&program)) else {
-        println!("NOT RUN: the search for a panic: nm is not here");
+        not_run("the search for a panic", "nm is not here");
         return Ok(());
     };
     assert!(symbols.contains("supervisor_step") && symbols.contains("supervisor_diagnosis_dm1"), "it links them all");
@@ -94,7 +94,7 @@ fn no_variable_is_linked() -> Outcome {
     let Some(cc) = c_compiler("the search for variables") else { return Ok(()) };
     let program = program(&cc, "boundary-data", &["-std=c99"], &[package().join("tests/c/boundary.c")])?;
     let Ok(symbols) = run(Command::new("nm").arg("-C").arg(&program)) else {
-        println!("NOT RUN: the search for variables: nm is not here");
+        not_run("the search for variables", "nm is not here");
         return Ok(());
     };
     let variable = |line: &&str| {

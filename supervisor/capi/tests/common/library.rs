@@ -1,6 +1,7 @@
 //! The static library as it ships, and programs in C that are linked with it.
 
 use std::ffi::OsStr;
+use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -26,11 +27,17 @@ pub fn compiler(variable: &str, usual: &[&str]) -> Option<String> {
     chosen.into_iter().find(|name| works(name))
 }
 
+/// Says what is not run, and why: past the test runner, which keeps what a passed test prints to itself.
+pub fn not_run(what: &str, why: &str) {
+    // Nobody may be there to read it.
+    let _ = writeln!(std::io::stderr(), "NOT RUN: {what}: {why}");
+}
+
 /// The C compiler of this machine; says loudly what is not run without one.
 pub fn c_compiler(what: &str) -> Option<String> {
     let found = compiler("CC", &["cc", "gcc", "clang"]);
     if found.is_none() {
-        println!("NOT RUN: {what}: no C compiler is here");
+        not_run(what, "no C compiler is here");
     }
     found
 }
