@@ -19,7 +19,7 @@ pub(super) fn fuzz(root: &Path) -> Result<Standing, ToolError> {
         "fuzz",
         "Fuzzing campaigns",
         "safety-case/records/fuzz.json",
-        "fuzz/campaign",
+        "supervise fuzz",
         "Anything by itself: totals say for how long nothing was found.",
     );
     fill(root, &mut standing)?;
@@ -94,7 +94,7 @@ fn fill(root: &Path, standing: &mut Standing) -> Result<(), ToolError> {
     // What the campaigns of the fuzzers write: a row for each target.
     for row in fields.get("targets").and_then(Value::as_array).into_iter().flatten().filter_map(Value::as_object) {
         let target = row.get("target").and_then(Value::as_str).unwrap_or("?");
-        for name in ["inputs", "cycles", "edges", "quiet_seconds"] {
+        for name in ["inputs", "cycles", "edges", "quiet_seconds", "found"] {
             if let Some(value) = row.get(name).and_then(scalars) {
                 standing.figure(&format!("{target}.{name}"), value, &format!("{target}: {}", name.replace('_', " ")));
             }
