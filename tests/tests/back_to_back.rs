@@ -1,6 +1,6 @@
 //! Back to back: every golden vector through the C library, as a C program calls it.
 
-#[path = "common/library.rs"]
+#[path = "../../supervisor/capi/tests/common/library.rs"]
 mod library;
 
 use std::error::Error;
