@@ -1,7 +1,8 @@
 //! `supervise simulate`.
 
-use super::{FINDINGS, Outcome, print, write};
+use super::{FINDINGS, Outcome, print, root, write};
 use crate::cli::Simulate;
+use crate::inject::Sources;
 use crate::simulate::document::document;
 use crate::simulate::page::page;
 use crate::simulate::table::{list, summary, table};
@@ -19,7 +20,7 @@ pub(super) fn run(arguments: &Simulate) -> Outcome {
         Request { seed: arguments.seed, shard: arguments.shard, jobs: arguments.jobs, log: arguments.log.clone() };
     let driven = simulate(&scenes, &request)?;
     if let Some(path) = &arguments.json {
-        write(path, &format!("{:#}\n", document(&driven, arguments.seed)))?;
+        write(path, &format!("{:#}\n", document(&driven, arguments.seed, &Sources::load(root()?)?)))?;
     }
     if let Some(path) = &arguments.html {
         write(path, &page(&driven, arguments.seed)?)?;

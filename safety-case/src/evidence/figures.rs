@@ -160,31 +160,35 @@ fn attacks(standings: &[Standing], claims: usize) -> String {
     );
     row(
         "fuzzed command streams, frames, logs and mappings (`fuzz`)",
-        &state(of("fuzz"), "the committed corpus, in every `cargo test`; **no campaign is recorded**", |standing| {
-            format!(
-                "{} vetted cycles in {} inputs, {} of them broke something; the design asks for a billion cycles (`fuzz --check`)",
-                sum(standing, ".cycles"),
-                sum(standing, ".inputs"),
-                sum(standing, ".found"),
-            )
-        }),
+        &state(of("fuzz"), "the committed corpus, in every `cargo test`; **no campaign is recorded**", fuzzed),
     );
     row(
         "a correct main controller on a busy and noisy bus, and ordinary driving, simulated: is anybody disturbed? (`disturb`)",
-        &state(of("disturb"), "**not run**", |standing| {
-            let get = |name| get(standing, name);
-            format!(
-                "of {} runs {} disturbed, warnings apart; {} levels without a cause, {} collisions; {} times braked in {} m of ordinary driving: **the law of the sources is too early there**, see `disturb --check`",
-                get("runs.runs"),
-                get("runs.disturbed"),
-                get("runs.false_triggers"),
-                get("runs.collisions"),
-                get("causes.ServiceBrake Mitigation"),
-                get("metres"),
-            )
-        }),
+        &state(of("disturb"), "**not run**", disturbed),
     );
     text
+}
+
+fn fuzzed(standing: &Standing) -> String {
+    format!(
+        "{} vetted cycles in {} inputs, {} of them broke something; the design asks for a billion cycles (`fuzz --check`)",
+        sum(standing, ".cycles"),
+        sum(standing, ".inputs"),
+        sum(standing, ".found"),
+    )
+}
+
+fn disturbed(standing: &Standing) -> String {
+    let get = |name| standing.get(name).unwrap_or("?");
+    format!(
+        "of {} runs {} disturbed, warnings apart; {} levels without a cause, {} collisions; {} times braked in {} m of ordinary driving: **the law of the sources is too early there**, see `disturb --check`",
+        get("runs.runs"),
+        get("runs.disturbed"),
+        get("runs.false_triggers"),
+        get("runs.collisions"),
+        get("causes.ServiceBrake Mitigation"),
+        get("metres"),
+    )
 }
 
 /// The figures as they are.

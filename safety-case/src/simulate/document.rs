@@ -1,7 +1,8 @@
 //! What came of scenarios, as JSON.
 //!
 //! ```text
-//! { "schema": "supervise-simulate", "version": 1, "seed": 1, "as_expected": true,
+//! { "schema": "supervise-simulate", "version": 1, "seed": 1, "as_expected": true, "sources": { "shipped": "...", "bench": "..." },
+//!   "figures": { "variants": 55, "as_demanded": 46, "known_not_to": 9, "not_as_expected": 0, "demands": 315 }, "open": [ "..." ],
 //!   "drives": [ { "scenario": "s1-approach", "variant": "0.3 s", "title": "...", "source": "S1 §3.2", "requirements": ["MIT-1a"],
 //!                 "stands": "pass", "known": null, "cycles": 7200, "level": 2, "digest": "0123456789abcdef", "log": "s1-approach-0.3-s.candump.gz",
 //!                 "demands": [ { "what": "hazards", "wanted": "none", "found": "none", "passed": true } ],
@@ -11,14 +12,35 @@
 
 use serde_json::{Value, json};
 
-use super::run::{Driven, log_name};
+use supervisor_tests::scenario::criteria::Standing;
 
-/// The document.
+use super::run::{Driven, log_name};
+use crate::inject::Sources;
+
+/// The document; `sources` say of what it is, `open` what is known not to hold.
 #[must_use]
-pub fn document(driven: &[Driven], seed: u64) -> Value {
+pub fn document(driven: &[Driven], seed: u64, sources: &Sources) -> Value {
     let told: Vec<Value> = driven.iter().map(drive).collect();
     let as_expected = driven.iter().all(|drive| drive.standing().as_expected());
-    json!({"schema": "supervise-simulate", "version": 1, "seed": seed, "as_expected": as_expected, "drives": told})
+    let count = |standing| driven.iter().filter(|drive| drive.standing() == standing).count();
+    let (met, known) = (count(Standing::Met), count(Standing::Known));
+    let demands: usize = driven.iter().map(|drive| drive.rows.len()).sum();
+    let why = |drive: &Driven| {
+        Some(format!(
+            "{}: {}",
+            log_name(&drive.scene).trim_end_matches(".candump.gz"),
+            drive.scene.expected.known.as_ref()?
+        ))
+    };
+    json!({
+        "schema": "supervise-simulate", "version": 1, "seed": seed, "as_expected": as_expected,
+        "sources": {"shipped": sources.shipped, "configuration": sources.configuration, "bench": sources.bench},
+        "figures": {
+            "variants": driven.len(), "as_demanded": met, "known_not_to": known,
+            "not_as_expected": driven.len().saturating_sub(met.saturating_add(known)), "demands": demands
+        },
+        "open": driven.iter().filter_map(why).collect::<Vec<_>>(), "drives": told
+    })
 }
 
 fn drive(drive: &Driven) -> Value {
