@@ -55,7 +55,11 @@ const BOUNDS: &[(&str, &str)] = &[
     ("verdicts.iter()", "channels: 12"),
     ("self.events.iter()", "length of the record: its type"),
     ("self.grave.iter()", "length of the record: its type"),
-    ("self.values.iter()", "length of the ring: its type"),
+    ("older.unwrap_or_default().iter()", "length of the ring: its type"),
+    ("diagnosis.record.iter()", "length of the record: its type"),
+    ("values.take(", "events of the record, or TROUBLE_CODES; never more than the caller has room for"),
+    ("bytes.into_iter()", "bytes of an answer: SUPERVISOR_ANSWER_BYTES"),
+    ("spans.iter()", "arguments of one call of the C interface"),
     ("in troubles", "trouble codes: TROUBLE_CODES"),
     ("self.entries.iter", "trouble codes: TROUBLE_CODES"),
     ("self.active()", "trouble codes: TROUBLE_CODES"),
@@ -123,7 +127,9 @@ fn every_loop_of_the_shipped_crates_has_a_constant_bound() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../supervisor");
     let mut files = Vec::new();
     sources(&root, &mut files);
-    files.retain(|path| path.components().any(|part| part.as_os_str() == "src"));
+    // The panic handler of the C library has to be endless; that nothing reaches it is seen in the linked program.
+    files
+        .retain(|path| path.components().any(|part| part.as_os_str() == "src") && !path.ends_with("capi/src/panic.rs"));
     files.sort();
     let (mut count, mut unknown) = (0, Vec::new());
     for path in files {
