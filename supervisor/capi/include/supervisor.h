@@ -31,6 +31,9 @@
 #define SUPERVISOR_MUST_USE
 #endif
 
+// Stands for a `SupervisorRecord` that fails its CRC when it is read back. Never given by a step.
+#define SUPERVISOR_RECORD_BROKEN 255
+
 // Version of this header. A library of another version refuses to start.
 #define SUPERVISOR_ABI_VERSION 1
 
@@ -567,8 +570,6 @@ enum SupervisorRecord
     SUPERVISOR_RECORD_LEAVE = 1,
     // High voltage is being, or was, shut down after leave.
     SUPERVISOR_RECORD_HIGH_VOLTAGE_DOWN = 2,
-    // What was read back fails its CRC. Never given back by a step.
-    SUPERVISOR_RECORD_BROKEN = 255,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L

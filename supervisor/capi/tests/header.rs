@@ -8,6 +8,7 @@ use supervisor::{
     BrakeMode, Channel, ContactorRequest, DrivingMode, EpbMode, EpbRequest, ExitReason, Faults, GearRequest, Kind,
     Level, Mode, Occupancy, Origin, Priority, Reason, Record, ResetCause, RetarderMode, Stage, Wiper,
 };
+use supervisor_capi::SUPERVISOR_RECORD_BROKEN;
 
 type Outcome = Result<(), Box<dyn Error>>;
 
@@ -15,9 +16,70 @@ fn folder() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
+/// The sources with the tables of codes that a C programmer meets.
+const TABLES: [&str; 6] = [
+    "terms/src/command.rs",
+    "terms/src/input.rs",
+    "terms/src/verdict.rs",
+    "terms/src/status.rs",
+    "terms/src/threat.rs",
+    "report/src/code.rs",
+];
+
+/// The tables as enumerations with the names that they have in C: cbindgen does not look into `codes!` and `faults!`. What of them
+/// goes into the header stands in `cbindgen.toml`.
+fn tables() -> Result<String, Box<dyn Error>> {
+    let mut made = Vec::new();
+    for name in TABLES {
+        let text = std::fs::read_to_string(folder().join("..").join(name))?;
+        let (mut codes, mut faults) = (false, false);
+        for line in text.lines() {
+            match line {
+                "codes! {" => codes = true,
+                "faults! {" => {
+                    faults = true;
+                    made.push("/// Faults and hints: the bits of `faults` in the status.".to_owned());
+                    made.push("#[repr(u32)] pub enum SupervisorFault {".to_owned());
+                }
+                "}" => {
+                    made.extend(faults.then(|| "}".to_owned()));
+                    (codes, faults) = (false, false);
+                }
+                line if codes => made.push(match line.trim().strip_suffix(" {") {
+                    Some(table) => format!("#[repr(u8)] pub enum Supervisor{table} {{"),
+                    None => line.to_owned(),
+                }),
+                line if faults => made.push(match line.trim().trim_end_matches(';').split_once(" = ") {
+                    Some((fault, bit)) => {
+                        let bits = 1_u32.checked_shl(bit.parse()?).ok_or("a fault has no bit")?;
+                        format!("{} = {bits},", words(fault))
+                    }
+                    None => line.to_owned(),
+                }),
+                _ => {}
+            }
+        }
+    }
+    Ok(made.join("\n"))
+}
+
+/// `K4_NOT_OPEN` as `K4NotOpen`.
+fn words(constant: &str) -> String {
+    let word = |word: &str| {
+        word.chars().take(1).chain(word.chars().skip(1).map(|letter| letter.to_ascii_lowercase())).collect()
+    };
+    constant.split('_').map(word).collect::<Vec<String>>().concat()
+}
+
 fn made() -> Result<String, Box<dyn Error>> {
     let config = cbindgen::Config::from_file(folder().join("cbindgen.toml"))?;
-    let made = cbindgen::Builder::new().with_config(config).with_src(folder().join("src/lib.rs")).generate()?;
+    let codes = Path::new(env!("CARGO_TARGET_TMPDIR")).join("codes.rs");
+    std::fs::write(&codes, tables()?)?;
+    let made = cbindgen::Builder::new()
+        .with_config(config)
+        .with_src(codes)
+        .with_src(folder().join("src/lib.rs"))
+        .generate()?;
     let mut bytes = Vec::new();
     made.write(&mut bytes);
     Ok(String::from_utf8(bytes)?)
@@ -72,7 +134,8 @@ fn every_code_is_that_of_the_supervisor() -> Outcome {
     table!(ContactorRequest, Wiper, DrivingMode, ResetCause, Record, Mode, Stage, Occupancy, ExitReason, Level);
     table!(Fmi, Lamp, System);
     known.extend(Faults::NAMES.iter().map(|(fault, name)| format!("SUPERVISOR_FAULT_{name} = {},", fault.bits())));
-    known.push("SUPERVISOR_RECORD_BROKEN = 255,".to_owned());
+    let broken = format!("#define SUPERVISOR_RECORD_BROKEN {SUPERVISOR_RECORD_BROKEN}\n");
+    assert!(header.contains(&broken) && Record::from_code(SUPERVISOR_RECORD_BROKEN).is_none(), "no code of a record");
     for line in &known {
         assert!(header.contains(&format!("    {line}\n")), "the header has no `{line}`");
     }

@@ -327,8 +327,6 @@ fn a_code_of_no_table_is_refused() {
     }
 }
 
-const SUPERVISOR_RECORD_BROKEN: u8 = 255;
-
 /// SELF-6a, SELF-6b: the watchdog is answered right once for each step, and wrong in every other case.
 #[test]
 fn a_step_is_good_for_one_answer() {

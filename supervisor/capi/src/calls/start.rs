@@ -13,8 +13,8 @@ use crate::memory::{Input, Place, disjoint};
 use crate::state::State;
 use crate::types::{SUPERVISOR_ABI_VERSION, SupervisorDiagnosis, SupervisorState};
 
-/// What the persisted record is when it fails its CRC.
-const BROKEN: u8 = 255;
+/// Stands for a `SupervisorRecord` that fails its CRC when it is read back. Never given by a step.
+pub const SUPERVISOR_RECORD_BROKEN: u8 = 255;
 
 /// Starts a supervisor in the caller's memory (SELF-9). Once after every reset; whatever the memory held is given up.
 ///
@@ -48,7 +48,7 @@ pub unsafe extern "C" fn supervisor_init(
         disjoint(&[place.span(), sealed.span()])?;
         let cause = ResetCause::from_code(reset_cause).ok_or(SupervisorCode::Value)?;
         let record = match record {
-            BROKEN => None,
+            SUPERVISOR_RECORD_BROKEN => None,
             record => Some(Record::from_code(record).ok_or(SupervisorCode::Value)?),
         };
         let sealed = Sealed::from_sealed(sealed.values()).map_err(refused)?;

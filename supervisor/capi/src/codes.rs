@@ -1,4 +1,7 @@
-//! What a call says of itself, and what a frame was refused for.
+//! What a call says of itself, what a frame was refused for, and which kind an event is.
+//!
+//! Every other code is one of the supervisor's own tables. They stand in `supervisor-terms` and `supervisor-report` and nowhere else;
+//! `tests/header` brings them into the C header from there.
 
 /// Whether a call was carried out. 0 to 15: it was; from 16 on it was refused, and changed nothing.
 #[repr(u32)]
