@@ -8,27 +8,12 @@ use std::path::Path;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use safety_case::replay::{Report, Request, run};
-use supervisor::{Record, ResetCause, Sealed};
+use supervisor::Sealed;
 
 fn replayed() -> Report {
     let Ok(sealed) = Sealed::from_default() else { unreachable!("the table is valid") };
     let log = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/drives/approach-correct.candump.gz");
-    let request = Request {
-        logs: vec![log],
-        bus: None,
-        map: None,
-        dbc: None,
-        sealed,
-        boot: ResetCause::PowerOn,
-        record: Some(Record::None),
-        json: None,
-        html: None,
-        title: String::new(),
-        timeline: 0,
-        digest: true,
-        progress: false,
-    };
-    let Ok(report) = run(&request) else { unreachable!("the drive that ships can be replayed") };
+    let Ok(report) = run(&Request::of(log, sealed)) else { unreachable!("the drive that ships can be replayed") };
     assert_eq!(report.summary.interventions(), 0, "the correct drive");
     report
 }

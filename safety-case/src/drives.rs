@@ -5,7 +5,7 @@ use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
-use supervisor::{Record, ResetCause, Sealed};
+use supervisor::Sealed;
 
 use crate::page::{IndexEntry, duration, index};
 use crate::replay::{Report, Request, create, run as replay};
@@ -67,19 +67,12 @@ pub fn replayed(
         let listed = manifest.drive.iter().find(|drive| drive.name == name);
         let title = listed.and_then(|drive| drive.title.clone()).unwrap_or_else(|| name.clone());
         let request = Request {
-            logs: vec![log],
-            bus: None,
-            map: None,
-            dbc: None,
-            sealed: Sealed::from_default()?,
-            boot: ResetCause::PowerOn,
-            record: Some(Record::None),
             json: Some(target.join(format!("{name}.json"))),
             html: Some(target.join(format!("{name}.html"))),
             title: title.clone(),
             timeline: 2000,
             digest: listed.is_some_and(|drive| drive.digest.is_some()),
-            progress: false,
+            ..Request::of(log, Sealed::from_default()?)
         };
         let report = replay(&request)?;
         let (told, same) = told(&name, &title, &report, listed);

@@ -54,6 +54,28 @@ pub struct Request {
     pub progress: bool,
 }
 
+impl Request {
+    /// One log on our link, after a clean key-on; only the summary and the digest of every verdict.
+    #[must_use]
+    pub fn of(log: PathBuf, sealed: Sealed) -> Self {
+        Self {
+            logs: vec![log],
+            bus: None,
+            map: None,
+            dbc: None,
+            sealed,
+            boot: ResetCause::PowerOn,
+            record: Some(Record::None),
+            json: None,
+            html: None,
+            title: String::new(),
+            timeline: 0,
+            digest: true,
+            progress: false,
+        }
+    }
+}
+
 /// Why a replay did not happen.
 #[derive(Debug, thiserror::Error)]
 pub enum Failure {

@@ -1,8 +1,10 @@
 //! Work on all cores, or a part of it, with progress.
 
 use std::io::IsTerminal;
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::sync::{Mutex, PoisonError};
+use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
@@ -43,6 +45,42 @@ pub fn spread<T: Sync, R: Send>(work: &[T], jobs: usize, steps: &Steps, each: im
     done.into_iter().map(|(_, result)| result).collect()
 }
 
+/// So long nothing comes before it is told.
+const QUIET: Duration = Duration::from_secs(60);
+
+/// Does the work on so many threads, and gives each result to `take` as it comes, on this thread; `None` where for a minute nothing
+/// came. Takes up nothing more once `take` fails.
+///
+/// # Errors
+/// The first one of `take`.
+pub fn as_it_comes<T: Send, R: Send, E>(
+    work: impl Iterator<Item = T> + Send,
+    jobs: usize,
+    each: impl Fn(T) -> R + Sync,
+    mut take: impl FnMut(Option<R>) -> Result<(), E>,
+) -> Result<(), E> {
+    let work = Mutex::new(work);
+    std::thread::scope(|scope| {
+        let (sender, results) = channel();
+        for _ in 0..jobs.max(1) {
+            let (sender, work, each) = (sender.clone(), &work, &each);
+            scope.spawn(move || {
+                let next = || work.lock().unwrap_or_else(PoisonError::into_inner).next();
+                // Whoever stops receiving ends the workers.
+                while next().is_some_and(|item| sender.send(each(item)).is_ok()) {}
+            });
+        }
+        drop(sender);
+        loop {
+            match results.recv_timeout(QUIET) {
+                Ok(result) => take(Some(result))?,
+                Err(RecvTimeoutError::Timeout) => take(None)?,
+                Err(RecvTimeoutError::Disconnected) => return Ok(()),
+            }
+        }
+    })
+}
+
 /// Progress on the standard error: a bar on a terminal, else a line for each tenth.
 #[derive(Debug)]
 pub struct Steps {
@@ -81,5 +119,41 @@ impl Steps {
         if let Some(bar) = &self.bar {
             bar.finish_and_clear();
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::atomic::{AtomicUsize, Ordering};
+
+    use super::as_it_comes;
+
+    #[test]
+    fn every_piece_is_done_once_and_its_result_comes() {
+        for jobs in [0, 1, 3] {
+            let mut came = Vec::new();
+            let done = as_it_comes(
+                0..20,
+                jobs,
+                |number| number * 2,
+                |result| {
+                    came.extend(result);
+                    Ok::<(), ()>(())
+                },
+            );
+            came.sort_unstable();
+            assert_eq!((done, came), (Ok(()), (0..20).map(|number| number * 2).collect()));
+        }
+    }
+
+    #[test]
+    fn after_a_failure_nothing_is_taken_up() {
+        let begun = AtomicUsize::new(0);
+        let each = |number: usize| {
+            begun.fetch_add(1, Ordering::Relaxed);
+            number
+        };
+        assert_eq!(as_it_comes(0..1_000_000, 2, each, |_| Err("no")), Err("no"));
+        assert!(begun.load(Ordering::Relaxed) < 1_000_000);
     }
 }

@@ -4,6 +4,7 @@ use super::{FINDINGS, NOT_RUN, Outcome, print, root, telling};
 use crate::cli::Fuzz;
 use crate::fuzz::{RECORD, Record, Request, Sources, TARGETS, Target, available, run as fuzz};
 use crate::number::grouped;
+use crate::spread::cores;
 
 /// Vetted cycles that the design asks for, all targets together.
 const CYCLES: u64 = 1_000_000_000;
@@ -36,7 +37,6 @@ pub(super) fn run(arguments: &Fuzz) -> Outcome {
         show(&record)?;
         return Ok(NOT_RUN);
     }
-    let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
     let (shard, _) = arguments.shard.unwrap_or((1, 1));
     let targets =
         if arguments.targets.is_empty() { TARGETS.map(str::to_owned).to_vec() } else { arguments.targets.clone() };
@@ -45,7 +45,7 @@ pub(super) fn run(arguments: &Fuzz) -> Outcome {
         seconds: arguments.seconds,
         seed: arguments.seed.wrapping_add(u64::try_from(shard)?.saturating_sub(1).wrapping_mul(0x9E37_79B9))
             & 0xFFFF_FFFF,
-        jobs: arguments.jobs.unwrap_or(cores),
+        jobs: arguments.jobs.unwrap_or_else(cores),
     };
     let ran = telling(|say| fuzz(root, &request, say))?;
     if Sources::load(root)? != sources {

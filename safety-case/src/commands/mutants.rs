@@ -8,6 +8,7 @@ use crate::cli::Mutants;
 use crate::mistakes::{Shard, available};
 use crate::mutants::{Explained, Record, Request, run as mutate};
 use crate::prove::shipped;
+use crate::spread::cores;
 
 pub(super) fn run(arguments: &Mutants) -> Outcome {
     let root = root()?;
@@ -19,10 +20,9 @@ pub(super) fn run(arguments: &Mutants) -> Outcome {
         return Ok(NOT_RUN);
     }
     if !arguments.check {
-        let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
         let request = Request {
             shard: arguments.shard.map_or(Shard::WHOLE, Shard::new),
-            jobs: arguments.jobs.unwrap_or(cores),
+            jobs: arguments.jobs.unwrap_or_else(cores),
             again: arguments.again,
             within: arguments.within.map(|minutes| Duration::from_secs(minutes.saturating_mul(60))),
         };

@@ -3,14 +3,13 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::mpsc;
 use std::time::{Duration, Instant};
 
 use super::instrument::instrument;
 use super::plan::{Plan, Vector};
 use crate::copy::{Copy, Program, WITH_TESTS, cargo, errors, programs, with_dependency};
 use crate::error::{ToolError, file, form, read};
+use crate::spread::{as_it_comes, cores};
 
 /// What `decide` and `vet` are made of: the core, what it reads the inputs with, and its arithmetic and timers.
 const SOURCES: [&str; 4] = [
@@ -136,36 +135,24 @@ pub fn run(root: &Path, names: &[String], again: bool, say: &mut dyn FnMut(&str)
 
 /// Runs the test programs, as many at a time as there are cores.
 fn side_by_side(targets: &[Program], folder: &Path, say: &mut dyn FnMut(&str)) -> Result<Seen, ToolError> {
-    let workers = std::thread::available_parallelism().map_or(1, usize::from);
-    let (next, mut all) = (AtomicUsize::new(0), Seen::default());
-    let (send, receive) = mpsc::channel();
-    std::thread::scope(|scope| {
-        for _ in 0..workers {
-            let (send, next) = (send.clone(), &next);
-            scope.spawn(move || {
-                while let Some(target) = targets.get(next.fetch_add(1, Ordering::Relaxed)) {
-                    let path = folder.join(format!("{}-{}.txt", target.package, target.name));
-                    if send.send((target, test(target, &path), path)).is_err() {
-                        return;
-                    }
-                }
-            });
+    let (mut all, mut count) = (Seen::default(), 0_usize);
+    let each = |target: &Program| {
+        let path = folder.join(format!("{}-{}.txt", target.package, target.name));
+        Ok::<_, ToolError>((target.name.clone(), test(target, &path)?, path))
+    };
+    as_it_comes(targets.iter(), cores(), each, |result| {
+        let Some(result) = result else { return Ok(()) };
+        let (name, took, path) = result?;
+        if path.exists() {
+            let failed = |line: usize| form(&path, &format!("line {line} is not understood"));
+            all.add(&read(&path)?).map_err(failed)?;
         }
-        drop(send);
-        let mut count = 0_usize;
-        // Whoever stops receiving ends the workers.
-        for (target, took, path) in receive {
-            let took = took?;
-            if path.exists() {
-                let failed = |line: usize| form(&path, &format!("line {line} is not understood"));
-                all.add(&read(&path)?).map_err(failed)?;
-            }
-            count = count.saturating_add(1);
-            let took = took.map_or("   as before".to_owned(), |took| format!("{:10.1} s", took.as_secs_f64()));
-            say(&format!("{count:>3} of {}  {took}  {}", targets.len(), target.name));
-        }
-        Ok(all)
-    })
+        count = count.saturating_add(1);
+        let took = took.map_or("   as before".to_owned(), |took| format!("{:10.1} s", took.as_secs_f64()));
+        say(&format!("{count:>3} of {}  {took}  {name}", targets.len()));
+        Ok::<(), ToolError>(())
+    })?;
+    Ok(all)
 }
 
 fn build(copy: &Copy, names: &[String]) -> Result<Vec<Program>, ToolError> {

@@ -5,15 +5,13 @@ use std::path::Path;
 
 use super::tally::{Sources, Tally};
 use crate::error::ToolError;
-use crate::prove::{default_configuration, sha256, shipped, tokens};
+use crate::prove::{default_configuration, stepped, tokens};
 
 /// Where it stands.
 pub const RECORD: &str = "safety-case/records/disturb.json";
 
 /// Bus, driver, road, main controller and disturbance.
 const BENCH: [&str; 1] = ["tests/src"];
-/// The facade: part of what is measured, and of no proof.
-const FACADE: [&str; 1] = ["supervisor/src"];
 
 impl Sources {
     /// Of the present sources.
@@ -21,12 +19,7 @@ impl Sources {
     /// # Errors
     /// A file cannot be read or is no Rust.
     pub fn load(root: &Path) -> Result<Self, ToolError> {
-        let shipped = format!("{} {}", shipped(root)?, tokens(root, &FACADE)?);
-        Ok(Self {
-            shipped: sha256(shipped.as_bytes()),
-            configuration: default_configuration()?,
-            bench: tokens(root, &BENCH)?,
-        })
+        Ok(Self { shipped: stepped(root)?, configuration: default_configuration()?, bench: tokens(root, &BENCH)? })
     }
 
     /// What has changed between these and others.

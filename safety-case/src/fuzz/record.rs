@@ -5,7 +5,7 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use crate::error::{ToolError, form, write};
-use crate::prove::{sha256, shipped, tokens};
+use crate::prove::{stepped, tokens};
 
 /// Where it stands.
 pub const RECORD: &str = "safety-case/records/fuzz.json";
@@ -13,8 +13,6 @@ pub const RECORD: &str = "safety-case/records/fuzz.json";
 /// The targets, in the order in which they run.
 pub const TARGETS: [&str; 5] = ["command_stream", "differential", "wire_bytes", "candump_log", "dbc_map"];
 
-/// The facade: it is fuzzed, and no proof speaks of it.
-const FACADE: [&str; 1] = ["supervisor/src"];
 /// What makes the inputs and judges the cycles.
 const JUDGES: [&str; 5] =
     ["fuzz/src", "fuzz/fuzz_targets", "proofs/src/properties", "tests/tests/common", "tests/tests/oracle"];
@@ -35,8 +33,7 @@ impl Sources {
     /// # Errors
     /// A file cannot be read or is no Rust.
     pub fn load(root: &Path) -> Result<Self, ToolError> {
-        let text = format!("{} {}", shipped(root)?, tokens(root, &FACADE)?);
-        Ok(Self { shipped: sha256(text.as_bytes()), judges: tokens(root, &JUDGES)? })
+        Ok(Self { shipped: stepped(root)?, judges: tokens(root, &JUDGES)? })
     }
 }
 

@@ -5,16 +5,13 @@ use std::fs;
 use std::io::{BufRead, BufReader, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
-use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::sync::{Mutex, PoisonError};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use super::log::Heard;
 use super::record::Target;
 use crate::error::{ToolError, file};
-
-/// How often it is told how far the targets are.
-const TELL: Duration = Duration::from_secs(60);
+use crate::spread::as_it_comes;
 
 /// What to run.
 #[derive(Clone, Debug)]
@@ -37,7 +34,8 @@ pub fn available() -> bool {
     silent(Command::new("cargo").args(["+nightly", "fuzz", "--version"])).is_ok_and(|status| status.success())
 }
 
-/// `cargo fuzz` on optimised targets without a sanitizer of memory: what is fuzzed has no `unsafe`, and is ten times as fast without.
+/// `cargo fuzz` on optimised targets without a sanitizer of memory: what is fuzzed has no `unsafe`, and a sanitizer
+/// costs most of the speed.
 fn cargo_fuzz(root: &Path, command: &str, target: Option<&str>) -> Command {
     let mut cargo = Command::new("cargo");
     cargo.current_dir(root.join("fuzz")).args(["+nightly", "fuzz", command, "--release", "--sanitizer", "none"]);
@@ -58,36 +56,17 @@ pub fn run(root: &Path, request: &Request, say: &mut dyn FnMut(&str)) -> Result<
     }
     let work: Vec<(&str, Mutex<Heard>)> =
         request.targets.iter().map(|name| (name.as_str(), Mutex::default())).collect();
-    let queue = Mutex::new(work.iter());
     let (mut done, began) = (Vec::new(), Instant::now());
-    std::thread::scope(|scope| {
-        let (sender, results) = channel();
-        for _ in 0..request.jobs.clamp(1, work.len().max(1)) {
-            let (sender, queue) = (sender.clone(), &queue);
-            scope.spawn(move || {
-                let next = || queue.lock().unwrap_or_else(PoisonError::into_inner).next();
-                while let Some((target, heard)) = next() {
-                    if sender.send(fuzz(root, target, request, heard)).is_err() {
-                        return;
-                    }
-                }
-            });
-        }
-        drop(sender);
-        loop {
-            match results.recv_timeout(TELL) {
-                Ok(result) => {
-                    let target: Target = result?;
-                    say(&format!("{}: done, {} inputs, {} cycles", target.target, target.inputs, target.cycles));
-                    done.push(target);
-                }
-                Err(RecvTimeoutError::Timeout) => {
-                    let minutes = began.elapsed().as_secs() / 60;
-                    say(&format!("{minutes} min; {}", progress(root, &work)));
-                }
-                Err(RecvTimeoutError::Disconnected) => return Ok(()),
-            }
-        }
+    let each = |(target, heard): &(&str, Mutex<Heard>)| fuzz(root, target, request, heard);
+    as_it_comes(work.iter(), request.jobs, each, |result| {
+        let Some(result) = result else {
+            say(&format!("{} min; {}", began.elapsed().as_secs() / 60, progress(root, &work)));
+            return Ok(());
+        };
+        let target: Target = result?;
+        say(&format!("{}: done, {} inputs, {} cycles", target.target, target.inputs, target.cycles));
+        done.push(target);
+        Ok::<(), ToolError>(())
     })?;
     done.sort_by_key(|done| request.targets.iter().position(|target| *target == done.target));
     Ok(done)

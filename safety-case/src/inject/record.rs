@@ -6,15 +6,13 @@ use std::path::Path;
 use super::list::FILE;
 use super::matrix::{Matrix, Sources};
 use crate::error::ToolError;
-use crate::prove::{default_configuration, sha256, shipped, tokens};
+use crate::prove::{default_configuration, sha256, stepped, tokens};
 
 /// Where it stands.
 pub const RECORD: &str = "safety-case/records/inject.json";
 
 /// Bus, main controller, injector and judge.
 const BENCH: [&str; 1] = ["tests/src"];
-/// The facade: part of what is measured, and of no proof.
-const FACADE: [&str; 1] = ["supervisor/src"];
 
 impl Sources {
     /// Of the present sources.
@@ -26,9 +24,8 @@ impl Sources {
             let path = root.join("safety-case/analysis").join(name);
             fs::read(&path).map_err(|error| ToolError::File { path, error })
         };
-        let shipped = format!("{} {}", shipped(root)?, tokens(root, &FACADE)?);
         Ok(Self {
-            shipped: sha256(shipped.as_bytes()),
+            shipped: stepped(root)?,
             configuration: default_configuration()?,
             bench: tokens(root, &BENCH)?,
             faults: sha256(&[read(FILE)?, read("goals.toml")?].concat()),

@@ -4,7 +4,6 @@ use std::collections::BTreeSet;
 use std::ffi::OsStr;
 use std::path::Path;
 use std::process::Stdio;
-use std::sync::mpsc::channel;
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
@@ -15,6 +14,7 @@ use crate::copy::Program;
 use crate::error::{ToolError, read, write};
 use crate::mistakes::Shard;
 use crate::prove::shipped;
+use crate::spread::as_it_comes;
 
 /// A test program that takes longer without a mutant does not run: every mutant that survives the others would wait for it.
 const LONGEST: Duration = Duration::from_secs(20);
@@ -158,44 +158,30 @@ pub fn run(root: &Path, request: Request, say: &mut dyn FnMut(&str)) -> Result<(
     record.save(root)?;
     let (total, began) = (queue.len(), Instant::now());
     say(&format!("{total} to run against {} test programs, {} at a time", tests.len(), request.jobs));
-    let (queue, tests) = (Mutex::new(queue.into_iter()), Mutex::new(tests));
-    let next = || {
-        let goes_on = request.within.is_none_or(|within| began.elapsed() < within);
-        goes_on.then(|| queue.lock().unwrap_or_else(PoisonError::into_inner).next()).flatten()
+    let tests = Mutex::new(tests);
+    let goes_on = |_: &(u32, String)| request.within.is_none_or(|within| began.elapsed() < within);
+    let each = |(number, name)| {
+        let by = caught(&tests, number)?;
+        Ok(Entry { name, outcome: by.map_or(Outcome::Survived, |by| Outcome::Caught { by }) })
     };
-    std::thread::scope(|scope| {
-        let (sender, results) = channel();
-        for _ in 0..request.jobs.max(1) {
-            let (sender, next, tests) = (sender.clone(), &next, &tests);
-            scope.spawn(move || {
-                while let Some((number, name)) = next() {
-                    let outcome =
-                        caught(tests, number).map(|by| by.map_or(Outcome::Survived, |by| Outcome::Caught { by }));
-                    let ends = outcome.is_err();
-                    if sender.send(outcome.map(|outcome| Entry { name, outcome })).is_err() || ends {
-                        return;
-                    }
-                }
-            });
+    let mut done = 0_usize;
+    as_it_comes(queue.into_iter().take_while(goes_on), request.jobs, each, |result| {
+        let Some(result) = result else { return Ok(()) };
+        let entry = result?;
+        done = done.saturating_add(1);
+        if entry.outcome == Outcome::Survived {
+            say(&format!("SURVIVED {}", entry.name));
         }
-        drop(sender);
-        let mut done = 0_usize;
-        for result in results {
-            let entry = result?;
-            done = done.saturating_add(1);
-            if entry.outcome == Outcome::Survived {
-                say(&format!("SURVIVED {}", entry.name));
+        record.put(entry);
+        if done.is_multiple_of(EVERY) || done == total {
+            let minutes = began.elapsed().as_secs() / 60;
+            say(&format!("{done} of {total}, {minutes} min so far"));
+            if shipped(root)? != sources {
+                return Err(ToolError::Arguments("the sources have changed while this ran".to_owned()));
             }
-            record.put(entry);
-            if done.is_multiple_of(EVERY) || done == total {
-                let minutes = began.elapsed().as_secs() / 60;
-                say(&format!("{done} of {total}, {minutes} min so far"));
-                if shipped(root)? != sources {
-                    return Err(ToolError::Arguments("the sources have changed while this ran".to_owned()));
-                }
-                record.save(root)?;
-            }
+            record.save(root)?;
         }
-        record.save(root)
-    })
+        Ok(())
+    })?;
+    record.save(root)
 }

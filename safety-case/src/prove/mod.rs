@@ -29,6 +29,6 @@ pub use progress::Progress;
 pub use raw::{RESULTS, Raw};
 pub use record::{Place, Proof, RECORD, Record};
 pub use run::Workers;
-pub use sources::{Sources, configuration_digest, default_configuration, sha256, shipped, tokens};
+pub use sources::{Sources, configuration_digest, default_configuration, sha256, shipped, stepped, tokens};
 pub use status::{Present, State, differences};
 pub use table::{block, claim, replaced, table};

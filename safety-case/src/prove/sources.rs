@@ -109,6 +109,14 @@ pub fn shipped(root: &Path) -> Result<String, ToolError> {
     tokens(root, &SHIPPED)
 }
 
+/// Digest of all that a step runs: the shipped sources and the facade, of which no proof speaks.
+///
+/// # Errors
+/// A folder or file cannot be read, or is no Rust.
+pub fn stepped(root: &Path) -> Result<String, ToolError> {
+    Ok(sha256(format!("{} {}", shipped(root)?, tokens(root, &["supervisor/src"])?).as_bytes()))
+}
+
 /// Digest of the tokens of all Rust files of these folders: comments and layout do not count.
 ///
 /// # Errors

@@ -2,7 +2,7 @@
 
 use safety_case::replay::{Request, run as replay};
 use serde_json::Value;
-use supervisor::{Record, ResetCause, Sealed};
+use supervisor::Sealed;
 
 use crate::common::{Outcome, project, supervise_in};
 
@@ -24,21 +24,7 @@ fn a_scenario_is_driven_shown_and_its_log_replays_to_the_same_verdicts() -> Outc
     assert_eq!(drives.len(), 2);
     for drive in drives {
         let log = folder.path().join("logs").join(drive["log"].as_str().ok_or("no log")?);
-        let request = Request {
-            logs: vec![log],
-            bus: None,
-            map: None,
-            dbc: None,
-            sealed: Sealed::from_default()?,
-            boot: ResetCause::PowerOn,
-            record: Some(Record::None),
-            json: None,
-            html: None,
-            title: String::new(),
-            timeline: 10,
-            digest: true,
-            progress: false,
-        };
+        let request = Request::of(log, Sealed::from_default()?);
         let digest = replay(&request)?.digest.map(|digest| format!("{digest:016x}"));
         assert_eq!(digest.as_deref(), drive["digest"].as_str(), "{}", drive["scenario"]);
     }

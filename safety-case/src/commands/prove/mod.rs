@@ -13,6 +13,7 @@ use crate::prove::{
     Harness, List, Options, Place, Present, Record, Sources, State, available, block, configuration_digest, declared,
     default_configuration, differences, replaced, table,
 };
+use crate::spread::cores;
 
 /// Where the table stands.
 const README: &str = "proofs/README.md";
@@ -76,9 +77,7 @@ impl Gate {
                 configuration: None,
                 assertion: None,
             },
-            jobs: arguments
-                .jobs
-                .map_or_else(|| std::thread::available_parallelism().map_or(1, Into::into), usize::from),
+            jobs: arguments.jobs.map_or_else(cores, usize::from),
             committed: true,
             place: Place::committed(&root),
             root,
