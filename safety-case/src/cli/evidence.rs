@@ -13,7 +13,6 @@ It reads records and runs no campaign. What was not run says \"not run\", what i
 so only shown when a run is at hand:
   tests          cargo test 2>&1 | tee target/tests.log     (or --log FILE)
   exploration    cargo test -p supervisor-proofs --test explore
-  cost           supervise cost
 The shipped drives are replayed, unless --no-drives.
 
 Files of the folder: index.html (self-contained, open items first), evidence.json, trace.html and .json, inject.html, \

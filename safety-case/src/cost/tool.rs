@@ -34,11 +34,12 @@ impl Tools {
         }
     }
 
-    /// A command of cargo, in the workspace.
+    /// A command of cargo, in the workspace; optimised across crates and as one unit, so that a count is that of the code and not of where it was cut.
     #[must_use]
     pub fn cargo(&self, arguments: &[&str]) -> Command {
         let mut command = Command::new(&self.cargo);
         command.current_dir(&self.root).args(arguments).args(&self.arguments);
+        command.envs([("CARGO_PROFILE_RELEASE_LTO", "fat"), ("CARGO_PROFILE_RELEASE_CODEGEN_UNITS", "1")]);
         command
     }
 

@@ -63,6 +63,17 @@ pub struct Runs {
     pub levels: u64,
 }
 
+impl Runs {
+    fn add(&mut self, other: &Self) {
+        self.runs += other.runs;
+        self.disturbed += other.disturbed;
+        self.warned += other.warned;
+        self.false_triggers += other.false_triggers;
+        self.collisions += other.collisions;
+        self.levels += other.levels;
+    }
+}
+
 /// How often something took so many ms.
 pub type Times = BTreeMap<u64, u64>;
 
@@ -169,13 +180,7 @@ impl Tally {
     /// Adds what another one has counted; seed, sources and what was asked for stay.
     pub fn add(&mut self, other: &Self) {
         for (kind, theirs) in &other.runs {
-            let ours = self.runs.entry(kind.clone()).or_default();
-            ours.runs += theirs.runs;
-            ours.disturbed += theirs.disturbed;
-            ours.warned += theirs.warned;
-            ours.false_triggers += theirs.false_triggers;
-            ours.collisions += theirs.collisions;
-            ours.levels += theirs.levels;
+            self.runs.entry(kind.clone()).or_default().add(theirs);
         }
         add(&mut self.run_causes, &other.run_causes);
         for (cause, example) in &other.run_examples {
@@ -246,14 +251,11 @@ impl Tally {
     /// All runs together.
     #[must_use]
     pub fn all_runs(&self) -> Runs {
-        self.runs.values().fold(Runs::default(), |all, kind| Runs {
-            runs: all.runs + kind.runs,
-            disturbed: all.disturbed + kind.disturbed,
-            warned: all.warned + kind.warned,
-            false_triggers: all.false_triggers + kind.false_triggers,
-            collisions: all.collisions + kind.collisions,
-            levels: all.levels + kind.levels,
-        })
+        let mut all = Runs::default();
+        for kind in self.runs.values() {
+            all.add(kind);
+        }
+        all
     }
 
     /// Interventions on the days by channel and reason.

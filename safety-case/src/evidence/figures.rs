@@ -11,8 +11,19 @@ use crate::number::grouped;
 /// Documents that have such tables.
 pub const DOCUMENTS: [&str; 2] = ["README.md", "safety-case/README.md"];
 /// Records that are committed, in the order of the tables.
-const COMMITTED: [&str; 10] =
-    ["proofs", "mistakes", "contracts", "inject", "coverage", "mutants", "fuzz", "disturb", "simulate", "target"];
+const COMMITTED: [&str; 11] = [
+    "proofs",
+    "mistakes",
+    "contracts",
+    "inject",
+    "coverage",
+    "mutants",
+    "fuzz",
+    "disturb",
+    "simulate",
+    "cost",
+    "target",
+];
 /// Where the claims of the independent oracle stand.
 const ORACLE: &str = "tests/tests/oracle";
 const END: &str = "<!-- end of evidence -->";

@@ -1,4 +1,4 @@
-//! What is not committed: the log of the tests, the explorations, the drives, the costs. It says "not run" unless a run is at hand.
+//! What is not committed: the log of the tests, the explorations, the drives. It says "not run" unless a run is at hand.
 
 use std::path::Path;
 
@@ -120,35 +120,4 @@ pub(super) fn drives(drives: Option<&[Drive]>) -> Standing {
         standing.open.push(format!("{}: the verdicts are not those of the simulation that made it", drive.name));
     }
     standing
-}
-
-pub(super) fn cost(root: &Path) -> Result<Standing, ToolError> {
-    const FILE: &str = "target/cost.json";
-    let mut standing = Standing::new(
-        "cost",
-        "Instructions and bytes",
-        FILE,
-        "supervise cost",
-        "Time, stack and caches on a target; the greatest measured is no bound. The last figures stand in README.md.",
-    );
-    let path = root.join(FILE);
-    if !path.exists() {
-        return Ok(standing);
-    }
-    standing.state = by_age(root, &path, &["supervisor", "tests/examples"])?;
-    let record: Value = serde_json::from_str(&read(&path)?).map_err(|error| form(&path, &error))?;
-    let stages = record.get("stages").and_then(Value::as_array).cloned().unwrap_or_default();
-    for stage in &stages {
-        let (name, greatest) =
-            (stage.get("stage").and_then(Value::as_str), stage.get("greatest").and_then(Value::as_u64));
-        let bar = stage.get("bar").and_then(Value::as_u64);
-        let (Some(name), Some(greatest)) = (name, greatest) else { continue };
-        if name == "decide + vet" || name == "whole step" {
-            standing.figure(name, greatest, "instructions, greatest of all scenarios");
-        }
-        if bar.is_some_and(|bar| greatest > bar) {
-            standing.open.push(format!("{name}: {greatest} instructions, above the bar"));
-        }
-    }
-    Ok(standing)
 }

@@ -150,7 +150,7 @@ pub fn standings(
     all.push(at_hand::tests(root, made)?);
     all.push(at_hand::exploration(root)?);
     all.push(at_hand::drives(made.drives));
-    all.push(at_hand::cost(root)?);
+    all.push(other::cost(root)?);
     all.push(other::fuzz(root)?);
     all.push(other::disturb(root)?);
     all.push(other::simulate(root)?);

@@ -62,6 +62,36 @@ pub(super) fn target(root: &Path) -> Result<Standing, ToolError> {
     Ok(standing)
 }
 
+pub(super) fn cost(root: &Path) -> Result<Standing, ToolError> {
+    let mut standing = Standing::new(
+        "cost",
+        "Instructions",
+        "safety-case/records/cost.json",
+        "supervise cost --write README.md",
+        "Time, stack and caches on a target; the greatest measured is no bound.",
+    );
+    let path = root.join(&standing.file);
+    if !path.exists() {
+        return Ok(standing);
+    }
+    let record: Value = serde_json::from_str(&read(&path)?).map_err(|error| form(&path, &error))?;
+    standing.state = State::of(changed(root, record.get("sources"))?);
+    let stages = record.get("stages").and_then(Value::as_array).cloned().unwrap_or_default();
+    for stage in &stages {
+        let (name, greatest) =
+            (stage.get("stage").and_then(Value::as_str), stage.get("greatest").and_then(Value::as_u64));
+        let bar = stage.get("bar").and_then(Value::as_u64);
+        let (Some(name), Some(greatest)) = (name, greatest) else { continue };
+        if name == "decide + vet" || name == "whole step" {
+            standing.figure(name, greatest, "instructions, greatest of all scenarios");
+        }
+        if bar.is_some_and(|bar| greatest > bar) {
+            standing.open.push(format!("{name}: {greatest} instructions, above the bar"));
+        }
+    }
+    Ok(standing)
+}
+
 /// Reads the record, where there is one.
 fn fill(root: &Path, standing: &mut Standing) -> Result<(), ToolError> {
     let path = root.join(&standing.file);
