@@ -36,6 +36,8 @@ fn phb_1_cap_and_obligation_exactly() {
     let obliged = bound.floor.most > DecelMs2Q11::ZERO;
     kani::cover!(!obliged && bound.cap.most == any.config.comfort_cap, "the cap of comfort");
     kani::cover!(!obliged && bound.cap.most == any.config.brake_cap, "the full cap, nothing obliged");
+    let stands = cycle.stands() && bound.cap.most > any.config.comfort_cap;
+    kani::cover!(!obliged && stands && !any.inputs.brake_switch.is(true), "at standstill");
     kani::cover!(!obliged && bound.cap.most == DecelMs2Q11::ZERO, "nothing is left");
     let (pressed, comfort) = (any.inputs.brake_switch.is(true), any.config.comfort_cap);
     kani::cover!(!obliged && pressed && bound.cap.most > comfort, "the driver brakes harder");

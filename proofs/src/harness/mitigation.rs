@@ -25,6 +25,8 @@ fn mit_1_levels_begin_exactly() {
     let (old, new): (&Mitigation, &Mitigation) = (&any.old.mitigation, &any.decided.state.mitigation);
     kani::cover!(!old.running() && new.three && !new.one && !new.two, "level 3 alone begins");
     kani::cover!(any.threat.level == Level::Three && !new.running(), "a level is called for and does not begin");
+    let little = any.threat.required < any.config.level_least_required;
+    kani::cover!(any.threat.level == Level::Three && little && !new.running(), "little braking is enough");
     kani::cover!(new.permitted && !new.running() && any.threat.level == Level::None, "permitted though not obliged");
 }
 

@@ -72,6 +72,7 @@ fn rsp_1_actuator_follows() {
     kani::cover!(old.following && new.command.is_running(), "the error is too great");
     kani::cover!(new.response.is_running() && !old.response.is_running(), "a first response");
     kani::cover!(new.fails(Millis::new(500), Millis::new(1000)), "it does not follow");
+    kani::cover!(new.command.is_running() && !new.far, "short, within the error allowed");
 }
 
 /// RSP-1e, RSP-1f, RSP-1i, RSP-1j: the wheel against its angle.
@@ -108,6 +109,10 @@ fn rsp_1_deviations_are_found_exactly() {
     assert!(rsp_1_steering(&watch));
     let (old, new, response) = (&any.old, &any.new, &any.response);
     kani::cover!(response.brake == Deviation::Persistent && !any.inputs.ebs_red.is(true), "after the retarder");
+    kani::cover!(
+        new.short.reached(any.config.response_retarder) && response.brake == Deviation::Confirmed,
+        "nearly there"
+    );
     kani::cover!(!old.helps && new.helps && !new.short.is_running(), "the limits do not reach it");
     kani::cover!(any.inputs.abs.is(true) && old.helps && old.service.raw() > 2_048, "ABS begins to work");
     kani::cover!(response.faults.contains(Faults::BRAKE_OVERSHOOT), "an overshoot");

@@ -153,8 +153,8 @@ pub(super) fn share_down(value: u16, percent: u8) -> u16 {
 }
 
 fn words(follow: Follow) -> [u64; 2] {
-    let Follow { reference, start, command, response, following } = follow;
-    let small = u64::from(reference) << 32 | u64::from(start) << 16 | u64::from(following);
+    let Follow { reference, start, command, response, following, far } = follow;
+    let small = u64::from(reference) << 32 | u64::from(start) << 16 | u64::from(far) << 1 | u64::from(following);
     [small, u64::from(command.to_word()) << 32 | u64::from(response.to_word())]
 }
 

@@ -31,10 +31,10 @@ fn mitigable(of: &Cycle<'_>) -> bool {
     hazard(of) || of.threat.mitigable || latches.one || latches.two || latches.three
 }
 
-/// The cap by the road alone.
+/// The cap by the road alone; whoever is known to stand is thrown by nothing (R-ag).
 fn by_road(of: &Cycle<'_>) -> DecelMs2Q11 {
     let config = of.config;
-    if hazard(of) { config.brake_cap } else { config.brake_cap.min(config.comfort_cap) }
+    if hazard(of) || of.stands() { config.brake_cap } else { config.brake_cap.min(config.comfort_cap) }
 }
 
 /// What the driver's pedal asks for: its share of the full pedal, and drag. At an unknown depth, anything.
@@ -47,7 +47,7 @@ fn by_pedal(depth: Option<supervisor_core::Pedal250>, of: &Cycle<'_>) -> DecelMs
 }
 
 /// PHB-1a, PHB-1b, PHB-1d, MIT-8d, RULE-3b: with the driver's feet off both pedals the cap is that of comfort exactly while
-/// the road is known to be clear, and the full one otherwise; an obligation beyond it raises it.
+/// the road is known to be clear and the bus not known to stand (R-ag), and the full one otherwise; an obligation beyond it raises it.
 #[must_use]
 pub fn phb_1_cap_exactly(cycle: &Cycle<'_>) -> bool {
     let bound = &cycle.envelope.brake;

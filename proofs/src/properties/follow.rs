@@ -38,7 +38,9 @@ pub fn rsp_1_follow(Pursuit { old, target, measured, error, elapsed }: Pursuit, 
     // 5 % of the way from where it began; it was never above the reference.
     let first = u32::from(start) * 100 + u32::from(reference.saturating_sub(start)) * 5;
     let response = if given >= first { old.response.run(elapsed) } else { Timer::STOPPED };
-    *new == Follow { reference, start, command: old.command.run(elapsed), response, following: false }
+    // R-af: far from it, beyond the error allowed.
+    let far = given < u32::from(reference) * 100_u32.saturating_sub(u32::from(error));
+    *new == Follow { reference, start, command: old.command.run(elapsed), response, following: false, far }
 }
 
 /// RSP-1a to RSP-1c, RSP-1g: it fails exactly when one of its times is reached, so never without a measured shortfall

@@ -29,6 +29,8 @@ fn begins(of: &Cycle<'_>) -> [bool; 3] {
     let slow = of.agreed_speeds().is_some_and(|(low, _)| low < config.level_least_speed.raw());
     let plausible = |measured: &DecelMs2Q11| *measured <= config.decel_plausible;
     let enough = inputs.deceleration.known().filter(plausible).is_some_and(|measured| measured >= threat.required);
+    // MIT-6e: where little braking is enough, none is obliged.
+    let enough = enough || threat.required < config.level_least_required;
     let straight = |limit| of.steering_angle().is_some_and(|angle| angle < magnitude(limit));
     let [one, two, three] = config.level_angle.0;
     [
@@ -59,9 +61,10 @@ fn ends(of: &Cycle<'_>) -> [bool; 3] {
     [over || gone || steers(of, one), over || gone || steers(of, two), over]
 }
 
-/// MIT-1a, MIT-2a, MIT-3a, MIT-4a, MIT-6b, MIT-6c, MIT-7d: a latch is set exactly when perception calls for its level
-/// (or a higher one), the angle is known and strictly inside its limit, the bus is not known to be slower than the least
-/// speed, and is not known to brake enough already. No latch looks at another.
+/// MIT-1a, MIT-2a, MIT-3a, MIT-4a, MIT-6b, MIT-6c, MIT-6e, MIT-7d: a latch is set exactly when perception calls for its
+/// level (or a higher one), the angle is known and strictly inside its limit, the bus is not known to be slower than the
+/// least speed, is not known to brake enough already, and no less than the least deceleration is required. No latch looks at
+/// another.
 #[must_use]
 pub fn mit_1_latches_begin_exactly(cycle: &Cycle<'_>) -> bool {
     let ([old_one, old_two, old_three], [one, two, three]) =

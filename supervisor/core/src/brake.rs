@@ -197,7 +197,8 @@ fn cap(situation: &Situation, floor: Bound<DecelMs2Q11>, evidence: &Evidence, co
     let hazard = !threat.known || threat.emergency || danger || situation.safe_state;
     let mut cap = Bound { most: config.brake_cap, reason: Reason::BrakeCap };
     // PHB-1: the comfort cap needs its own evidence, a road known to be clear.
-    cap.lower_if(!hazard, config.comfort_cap, Reason::PhantomBraking);
+    // Whoever stands is thrown by nothing: S1's level holds for a second after standstill (R-ag).
+    cap.lower_if(!hazard && !evidence.standstill, config.comfort_cap, Reason::PhantomBraking);
     // TRQ-3, TRQ-4: no comfort braking against the driver's own pedals; mitigation stays permitted.
     let mitigable = hazard || threat.mitigable || situation.mitigation.running();
     match evidence.brake_pedal {

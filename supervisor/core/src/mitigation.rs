@@ -83,13 +83,14 @@ impl Mitigation {
         let [enter_one, enter_two, enter_three] = config.level_angle.0;
         let [exit_one, exit_two] = config.level_exit_angle.0;
 
-        // MIT-6b, c: nothing new is obliged when slow, or while the bus already brakes enough. Both need evidence.
+        // MIT-6b, c, e: nothing new is obliged when slow, while the bus already brakes enough, or where little is enough. All
+        // need evidence.
         let slow = evidence.obliged_below(config.level_least_speed);
         let braking = inputs
             .deceleration
             .known()
             .is_some_and(|measured| measured >= threat.required && measured <= config.decel_plausible);
-        let open = !slow && !braking;
+        let open = !slow && !braking && threat.required >= config.level_least_required;
         // MIT-7: unknown angle, no new entry.
         let enter = |level, limit: AngleDeciDeg| {
             open && threat.level >= level && angle.is_some_and(|angle| angle < limit.raw().unsigned_abs())

@@ -289,10 +289,7 @@ pub fn vet_steering(envelope: &Envelope, command: Command<Steering>) -> (Steerin
         let out = if idle { Steering::NEUTRAL } else { out };
         let kind = if idle { Kind::Block } else { Kind::Substitute };
         let cause = Verdict::fact(kind, reason, u8::from(wanted.enable), u8::from(out.enable));
-        return (
-            out,
-            judge(usable, &out, &Steering::NEUTRAL, Verdict::PASS, Some(cause).filter(|_| usable.is_ok() || !idle)),
-        );
+        return (out, judge(usable, &out, &Steering::NEUTRAL, Verdict::PASS, Some(cause)));
     }
     let out = Steering {
         enable: true,

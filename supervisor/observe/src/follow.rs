@@ -18,6 +18,8 @@ retained! {
         response: Timer = Timer::STOPPED,
         /// The target was reached.
         following: bool = false,
+        /// Short by more than the steady-state error allowed.
+        far: bool = false,
     }
 }
 
@@ -49,6 +51,7 @@ impl Follow {
             command: self.command.run(elapsed),
             response: self.response.run_while(responds, elapsed),
             following: false,
+            far: hundredfold < u32::from(reference).saturating_mul(100_u32.saturating_sub(u32::from(error))),
         }
     }
 

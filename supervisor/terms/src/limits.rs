@@ -199,6 +199,8 @@ limits! {
     level_speedless: Millis = [10000], 2000..=30000, "ms", "own", "MIT-7b";
     /// Nothing is obliged below this own speed.
     level_least_speed: SpeedKmhQ8 = [2560], 512..=5120, "1/256 km/h", "own (10 km/h)", "MIT-6b";
+    /// Nothing is obliged where less deceleration than this is required. 0: the times to collision alone, as S1 says it.
+    level_least_required: DecelMs2Q11 = [0], 0..=5120, "1/2048 m/s²", "own (0: S1's letter, R-ah)", "MIT-6e";
     /// Forward-collision warning: on below, off above.
     forward_ttc: Row<Millis, 2> = [4000, 4500], 1000..=10000, "ms", "S1 §3.1.2 (1)", "FCW-1a";
     /// Forward-collision warning: lateral offset.

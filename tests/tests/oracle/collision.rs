@@ -105,11 +105,11 @@ pub fn brake_passes(facts: &Facts<'_>, at: usize) -> Outcome {
     )
 }
 
-/// PHB-1a, PHB-1b: brake and retarder together at most 3.5 m/s² without an emergency, if the driver does not brake; levels 1 and 2
-/// demand less.
+/// PHB-1a, PHB-1b, R-ag: brake and retarder together at most 3.5 m/s² without an emergency, if the driver does not brake and the
+/// bus is not known to stand; levels 1 and 2 demand less.
 pub fn comfort_cap(facts: &Facts<'_>, at: usize) -> Outcome {
     let cycle = facts.cycle(at);
-    let premise = facts.clear.at(at) && pedal_clear(&cycle.inputs) && !facts.safe.at(at);
+    let premise = facts.clear.at(at) && pedal_clear(&cycle.inputs) && !facts.safe.at(at) && !facts.speed(at).below(77);
     demand(premise, braking_out(&cycle.outputs) <= 7_168, "the road is known clear: at most 3.5 m/s²")
 }
 
