@@ -104,18 +104,24 @@ impl<'a> Bench<'a> {
     /// # Errors
     /// If the default configuration is refused.
     pub fn new(scenario: &Scenario<'a>) -> Result<Self, ConfigError> {
-        Ok(Self {
+        Ok(Self::configured(scenario, Sealed::from_default()?))
+    }
+
+    /// The same with a configuration of its own.
+    #[must_use]
+    pub fn configured(scenario: &Scenario<'a>, sealed: Sealed) -> Self {
+        Self {
             now_ms: 0,
-            supervisor: Supervisor::new(Sealed::from_default()?, ResetCause::PowerOn, Some(Record::None)),
+            supervisor: Supervisor::new(sealed, ResetCause::PowerOn, Some(Record::None)),
             plant: Plant::new(scenario.parameters, scenario.script, scenario.road),
             controller: Controller::default(),
             pace: Pace::default(),
-            link: Link::new(&Config::DEFAULT),
+            link: Link::new(sealed.intact().unwrap_or(&Config::DEFAULT)),
             wanted: Outputs::NEUTRAL,
             obeys: Obeys::Supervisor,
             last: None,
             absent_ms: 0,
-        })
+        }
     }
 
     /// The same with another one to obey, from now on.

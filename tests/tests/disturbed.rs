@@ -2,7 +2,7 @@
 
 use std::error::Error;
 
-use supervisor::{Channel, Level};
+use supervisor::{Channel, Level, Sealed};
 use supervisor_tests::bench::Bench;
 use supervisor_tests::catalogue;
 use supervisor_tests::disturb::run::{Outcome, Prepared, run};
@@ -68,7 +68,7 @@ fn the_counter_finds_what_the_judge_finds() -> Tested {
 /// goes out in the cycle in which its object is read.
 #[test]
 fn a_correct_controller_is_not_disturbed_on_a_busy_bus() -> Tested {
-    let prepared = Prepared::new()?;
+    let prepared = Prepared::new(Sealed::from_default()?);
     let outcomes: Vec<Outcome> =
         (0..40).map(|number| run(&prepared, Amount::TYPICAL, 11, number).ok_or("no run")).collect::<Result<_, _>>()?;
     assert!(outcomes.iter().filter(|outcome| outcome.level > Level::None).count() >= 10, "something happens");
@@ -84,7 +84,8 @@ fn a_correct_controller_is_not_disturbed_on_a_busy_bus() -> Tested {
 
 #[test]
 fn a_day_is_driven_by_its_seed_and_nobody_is_hit() -> Tested {
-    let (one, again, other) = (day(1, 0, 1500.0)?, day(1, 0, 1500.0)?, day(1, 1, 1500.0)?);
+    let sealed = Sealed::from_default()?;
+    let (one, again, other) = (day(sealed, 1, 0, 1500.0), day(sealed, 1, 0, 1500.0), day(sealed, 1, 1, 1500.0));
     assert_eq!((one.took_ms, one.stops, one.cases.len()), (again.took_ms, again.stops, again.cases.len()));
     assert_ne!(one.took_ms, other.took_ms);
     for day in [&one, &other] {

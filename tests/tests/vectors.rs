@@ -3,9 +3,11 @@
 use std::error::Error;
 use std::path::{Path, PathBuf};
 
+use supervisor::wire::Frame;
 use supervisor_tests::catalogue;
 use supervisor_tests::drive::replay;
-use supervisor_tests::vectors::columns::{Fnv, decision, digest};
+use supervisor_tests::vectors::columns::{Column, decision};
+use supervisor_tests::vectors::digest::{Digest, digest};
 use supervisor_tests::vectors::files::{VectorError, all, keep, vectors};
 use supervisor_tests::vectors::{Made, boundary, run};
 
@@ -78,8 +80,8 @@ fn the_boundary_set_meets_the_boundaries() -> Outcome {
 /// SELF-3a: the digest is FNV-1a, and changes with every column and every frame.
 #[test]
 fn the_digest_changes_with_everything() -> Outcome {
-    let mut fnv = Fnv::default();
-    fnv.put(b"foobar");
+    let mut fnv = Digest::default();
+    fnv.bytes(b"foobar");
     assert_eq!(fnv.finish(), 0x8594_4171_F739_67E8, "a published value");
     let vector = boundary::all().into_iter().next().ok_or("no vector")?;
     let mut first = None;
@@ -89,18 +91,29 @@ fn the_digest_changes_with_everything() -> Outcome {
     })?;
     let made = first.ok_or("no cycle")?;
     let columns = decision(&made);
-    let whole = digest(&columns, &made.sent);
+    let whole = digest(&made.decision, &made.sent);
+    let of = |columns: &[Column], sent: &[Frame]| {
+        let mut digest = Digest::default();
+        for (_, value) in columns {
+            digest.field(*value);
+        }
+        for frame in sent {
+            digest.frame(frame);
+        }
+        digest.finish()
+    };
+    assert_eq!(of(&columns, &made.sent), whole, "the columns are all that is digested");
     assert_eq!(columns.len(), 112, "60 of verdicts, 42 of outputs, 10 of the status");
     for at in 0..columns.len() {
         let mut changed = columns.clone();
         changed[at].1 ^= 1;
-        assert_ne!(digest(&changed, &made.sent), whole, "{}", changed[at].0);
+        assert_ne!(of(&changed, &made.sent), whole, "{}", changed[at].0);
     }
     assert_eq!(made.sent.len(), 16);
     for at in 0..made.sent.len() {
         let mut changed = made.sent.clone();
         changed[at].data[7] ^= 1;
-        assert_ne!(digest(&columns, &changed), whole);
+        assert_ne!(of(&columns, &changed), whole);
     }
     Ok(())
 }

@@ -26,6 +26,7 @@ Examples:
   supervise disturb                                      some minutes
   supervise disturb --runs 200 --km 10                   a short look
   supervise disturb --json safety-case/records/disturb.json --html target/disturb.html
+  supervise disturb --km 200 --config my.bin             with your numbers, from `supervise config seal`
   supervise disturb --shard 1/4 --json part-1.json       one part of four, on a machine of its own
   supervise disturb --merge part-*.json --json all.json  the whole out of all parts
   supervise disturb --check                              runs nothing: the committed record, and whether it is stale
@@ -46,6 +47,9 @@ pub struct Disturb {
     /// From which everything is drawn
     #[arg(long, value_name = "NUMBER", default_value_t = 1)]
     pub seed: u64,
+    /// Sealed configuration of the supervisor; without it, the defaults
+    #[arg(long, value_name = "FILE")]
+    pub config: Option<PathBuf>,
     /// Only the K-th of N parts
     #[arg(long, value_name = "K/N", value_parser = part)]
     pub shard: Option<(usize, usize)>,
@@ -62,6 +66,6 @@ pub struct Disturb {
     #[arg(long, value_name = "FILE")]
     pub html: Option<PathBuf>,
     /// Run nothing: show the committed record, and whether it is stale
-    #[arg(long, conflicts_with_all = ["runs", "km", "seed", "shard", "merge", "jobs"])]
+    #[arg(long, conflicts_with_all = ["runs", "km", "seed", "config", "shard", "merge", "jobs"])]
     pub check: bool,
 }

@@ -13,7 +13,7 @@ It reads records and runs no campaign. What was not run says \"not run\", what i
 so only shown when a run is at hand:
   tests          cargo test 2>&1 | tee target/tests.log     (or --log FILE)
   exploration    cargo test -p supervisor-proofs --test explore
-The shipped drives are replayed, unless --no-drives.
+The shipped drives are replayed and the scenarios drawn, unless --no-drives.
 
 Files of the folder: index.html (self-contained, open items first), evidence.json, trace.html and .json, inject.html, \
 requirements.sdoc (StrictDoc), needs.json (sphinx-needs), tests.xml (JUnit), sbom.cdx.json (CycloneDX), argument/, records/, \
@@ -41,7 +41,7 @@ pub struct Evidence {
     /// What `cargo test` printed; without it, target/tests.log if there is one
     #[arg(long, value_name = "FILE")]
     pub log: Option<PathBuf>,
-    /// Do not replay the shipped drives
+    /// Do not replay the shipped drives, nor draw the scenarios
     #[arg(long)]
     pub no_drives: bool,
     /// Write nothing: only the findings
@@ -50,6 +50,9 @@ pub struct Evidence {
     /// Write nothing but the tables of the records in this file, between their marks
     #[arg(long, value_name = "FILE")]
     pub write: Option<PathBuf>,
+    /// Write nothing: print the digest of the shipped sources, as a record of another tool has to carry it in `sources`
+    #[arg(long, conflicts_with_all = ["check", "write"])]
+    pub digest: bool,
     /// The root of the project; without it, this project
     #[arg(long, value_name = "FOLDER")]
     pub root: Option<PathBuf>,

@@ -29,11 +29,7 @@ pub fn run(command: &ConfigCommand) -> Outcome {
             print(format!("{}{} bytes sealed in {}\n", changes(&sealed), supervisor::SEALED_BYTES, output.display()))?;
         }
         ConfigCommand::Show { file } => {
-            let sealed = match file {
-                Some(file) => read(file)?,
-                None => Sealed::from_default()?,
-            };
-            print(show(&sealed))?;
+            print(show(&read_or_default(file.as_deref())?))?;
         }
     }
     Ok(0)
@@ -50,6 +46,14 @@ fn failure(file: &Path, line: Option<usize>, reason: String) -> ConfigFailure {
 pub(super) fn read(file: &Path) -> Result<Sealed, ConfigFailure> {
     let bytes = std::fs::read(file).map_err(|error| failure(file, None, error.to_string()))?;
     Sealed::from_sealed(&bytes).map_err(|error| failure(file, None, error.to_string()))
+}
+
+/// Reads sealed bytes; without a file, the defaults.
+pub(super) fn read_or_default(file: Option<&Path>) -> Result<Sealed, Box<dyn std::error::Error>> {
+    Ok(match file {
+        Some(file) => read(file)?,
+        None => Sealed::from_default()?,
+    })
 }
 
 /// The words of a configuration, in the order of the table.

@@ -1,6 +1,6 @@
 //! `supervise disturb`.
 
-use super::{FINDINGS, Outcome, print, root, write};
+use super::{FINDINGS, config, Outcome, print, root, write};
 use crate::cli::Disturb;
 use crate::disturb::page::page;
 use crate::disturb::record::{RECORD, read};
@@ -9,12 +9,13 @@ use crate::disturb::{Request, Sources, Tally, campaign};
 
 pub(super) fn run(arguments: &Disturb) -> Outcome {
     let root = root()?;
-    let sources = Sources::load(root)?;
+    let sealed = config::read_or_default(arguments.config.as_deref())?;
+    let sources = Sources::load(root, &sealed)?;
     let tally = if arguments.check {
         read(&root.join(RECORD))?
     } else if arguments.merge.is_empty() {
         let Disturb { seed, runs, km, shard, jobs, .. } = *arguments;
-        campaign(&Request { seed, runs, km, shard, jobs }, sources.clone())?
+        campaign(&Request { sealed, seed, runs, km, shard, jobs }, sources.clone())
     } else {
         let parts: Vec<Tally> = arguments.merge.iter().map(|path| read(path)).collect::<Result<_, _>>()?;
         Tally::merge(&parts)?

@@ -12,12 +12,17 @@ use crate::error::{file, read};
 use crate::evidence::figures::{blocks, replaced};
 use crate::evidence::folder::{RUN, changed, files, ours, write_all};
 use crate::evidence::{Collected, Request, collect};
+use crate::prove::stepped;
 
 pub(super) fn run(arguments: &Evidence) -> Outcome {
     let root = match &arguments.root {
         Some(path) => path.canonicalize().map_err(|error| file(path, error))?,
         None => root()?.to_owned(),
     };
+    if arguments.digest {
+        print(format_args!("{}\n", stepped(&root)?))?;
+        return Ok(0);
+    }
     let out = arguments.out.clone().unwrap_or_else(|| root.join("target/evidence"));
     let began = Instant::now();
     let writes = !arguments.check && arguments.write.is_none();

@@ -3,8 +3,6 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use supervisor::Sealed;
-
 use super::{INTERVENED, Outcome, print};
 use crate::cli::ReplayArgs;
 use crate::notes::NoteLine;
@@ -20,10 +18,7 @@ const ODD: usize = 12;
 /// # Errors
 /// Bad files, mapping or configuration.
 pub fn run(arguments: &ReplayArgs) -> Outcome {
-    let sealed = match &arguments.config {
-        None => Sealed::from_default()?,
-        Some(file) => super::config::read(file)?,
-    };
+    let sealed = super::config::read_or_default(arguments.config.as_deref())?;
     let first = arguments.logs.first().and_then(|log| log.file_name()).map(|name| name.to_string_lossy().into_owned());
     let request = Request {
         logs: arguments.logs.clone(),

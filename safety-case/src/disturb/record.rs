@@ -3,9 +3,11 @@
 use std::fs;
 use std::path::Path;
 
+use supervisor::Sealed;
+
 use super::tally::{Sources, Tally};
 use crate::error::ToolError;
-use crate::prove::{default_configuration, stepped, tokens};
+use crate::prove::{configuration_digest, stepped, tokens};
 
 /// Where it stands.
 pub const RECORD: &str = "safety-case/records/disturb.json";
@@ -14,12 +16,13 @@ pub const RECORD: &str = "safety-case/records/disturb.json";
 const BENCH: [&str; 1] = ["tests/src"];
 
 impl Sources {
-    /// Of the present sources.
+    /// Of the present sources, and this configuration.
     ///
     /// # Errors
     /// A file cannot be read or is no Rust.
-    pub fn load(root: &Path) -> Result<Self, ToolError> {
-        Ok(Self { shipped: stepped(root)?, configuration: default_configuration()?, bench: tokens(root, &BENCH)? })
+    pub fn load(root: &Path, sealed: &Sealed) -> Result<Self, ToolError> {
+        let configuration = configuration_digest(&sealed.to_bytes());
+        Ok(Self { shipped: stepped(root)?, configuration, bench: tokens(root, &BENCH)? })
     }
 
     /// What has changed between these and others.
@@ -27,7 +30,7 @@ impl Sources {
     pub fn differences(&self, other: &Self) -> Vec<&'static str> {
         let pairs = [
             ("the shipped sources", &self.shipped, &other.shipped),
-            ("the default configuration", &self.configuration, &other.configuration),
+            ("the configuration", &self.configuration, &other.configuration),
             ("the bus on the desk, its driver or the disturbance", &self.bench, &other.bench),
         ];
         pairs.into_iter().filter(|(_, one, two)| one != two).map(|(what, ..)| what).collect()

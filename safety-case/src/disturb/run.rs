@@ -1,6 +1,6 @@
 //! A campaign, or a part of it, on all cores.
 
-use supervisor::{Channel, ConfigError, Level, Reason};
+use supervisor::{Channel, Level, Reason, Sealed};
 use supervisor_tests::disturb::Amount;
 use supervisor_tests::disturb::run::{Outcome, Prepared, run};
 use supervisor_tests::judge::Stretch;
@@ -12,8 +12,10 @@ use crate::number::float;
 use crate::spread::{Steps, cores, mine, spread};
 
 /// What is wanted.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub struct Request {
+    /// What the supervisor is configured with.
+    pub sealed: Sealed,
     /// The seed.
     pub seed: u64,
     /// Runs.
@@ -32,10 +34,8 @@ const DAY: u64 = 5000;
 const BATCH: u64 = 20;
 
 /// Runs it.
-///
-/// # Errors
-/// If the default configuration is refused.
-pub fn campaign(request: &Request, sources: Sources) -> Result<Tally, ConfigError> {
+#[must_use]
+pub fn campaign(request: &Request, sources: Sources) -> Tally {
     let (_, shards) = request.shard.unwrap_or((1, 1));
     let jobs = request.jobs.unwrap_or_else(cores);
     let days = (request.km * 1000).div_ceil(DAY);
@@ -52,7 +52,7 @@ pub fn campaign(request: &Request, sources: Sources) -> Result<Tally, ConfigErro
         ..Tally::default()
     };
 
-    let prepared = Prepared::new()?;
+    let prepared = Prepared::new(request.sealed);
     let batches: Vec<u64> = numbers(request.runs.div_ceil(BATCH));
     let steps = Steps::new("twenties of runs", batches.len());
     let one = |batch: &u64| {
@@ -70,15 +70,15 @@ pub fn campaign(request: &Request, sources: Sources) -> Result<Tally, ConfigErro
 
     let mine = numbers(days);
     let steps = Steps::new("ordinary days of 5 km", mine.len());
-    let one = |number: &u64| -> Result<Tally, ConfigError> {
+    let one = |number: &u64| {
         let mut tally = Tally::default();
-        count_day(&mut tally, *number, &day(request.seed, *number, float(DAY))?);
-        Ok(tally)
+        count_day(&mut tally, *number, &day(request.sealed, request.seed, *number, float(DAY)));
+        tally
     };
     for tally in spread(&mine, jobs, &steps, one) {
-        whole.add(&tally?);
+        whole.add(&tally);
     }
-    Ok(whole)
+    whole
 }
 
 fn cause(stretch: &Stretch, reason: Reason) -> String {

@@ -27,7 +27,7 @@ use serde::{Deserialize, Serialize};
 pub struct Sources {
     /// The shipped sources.
     pub shipped: String,
-    /// The default configuration.
+    /// The configuration.
     pub configuration: String,
     /// Bus, driver, road, main controller, disturbance.
     pub bench: String,

@@ -22,10 +22,13 @@ pub mod versions;
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
+use supervisor_tests::scenario::load;
 
 use crate::analysis::{self, Analysis};
 use crate::argument::{self, Argument};
 use crate::drives::{self, Drive};
+use crate::error::file;
+use crate::simulate::{self, simulate};
 use crate::trace::{Trace, trace};
 use inventory::Inventory;
 use open::Open;
@@ -60,7 +63,7 @@ impl std::fmt::Display for Finding {
 pub struct Request {
     /// What `cargo test` printed; without it, `target/tests.log` if there is one.
     pub log: Option<PathBuf>,
-    /// Where to replay the drives to; without it, they are not replayed.
+    /// Where to replay the drives to, and to draw the scenarios; without it, neither is done.
     pub drives: Option<PathBuf>,
 }
 
@@ -108,6 +111,12 @@ pub fn collect(
         Some(folder) => Some(drives::replayed(root, folder, &mut |told| say(&format!("drive: {}", first(told))))?),
         None => None,
     };
+    if let Some(folder) = &request.drives {
+        say("scenarios");
+        let driven = simulate(&load::all(&root.join("tests/scenarios"))?, &simulate::Request { seed: 1, ..Default::default() })?;
+        let path = folder.join(records::SCENARIOS);
+        std::fs::write(&path, simulate::page::page(&driven, 1)?).map_err(|error| file(&path, error))?;
+    }
     let made = Made { trace: &trace, log: log.as_ref(), drives: drives.as_deref() };
     let standings = standings(root, made, say)?;
     say("packages and tools");

@@ -6,7 +6,7 @@
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use supervisor::wire::Frame;
-use supervisor::{Channel, ConfigError, Inputs, Level, Reason, Scene};
+use supervisor::{Channel, Inputs, Level, Reason, Scene, Sealed};
 
 use super::reaction::{Reaction, Stopwatch};
 use super::situation::{Kind, Situation, situation};
@@ -50,10 +50,8 @@ pub struct Prepared(Vec<Bench<'static>>);
 
 impl Prepared {
     /// Drives it up to where runs begin.
-    ///
-    /// # Errors
-    /// If the default configuration is refused.
-    pub fn new() -> Result<Self, ConfigError> {
+    #[must_use]
+    pub fn new(sealed: Sealed) -> Self {
         let parameters = Parameters { power_told: true, ..Parameters::DEFAULT };
         let drive = |(name, script): (&'static str, Script<'static>)| {
             let (title, description) = (name, name);
@@ -67,13 +65,13 @@ impl Prepared {
                 road: &PLACES,
                 misdeeds: &[],
             };
-            let mut bench = Bench::new(&scenario)?;
+            let mut bench = Bench::configured(&scenario, sealed);
             while bench.now_ms() < START_MS {
                 bench.step(&mut crate::bench::Undisturbed);
             }
-            Ok(bench)
+            bench
         };
-        DRIVES.into_iter().map(drive).collect::<Result<_, _>>().map(Self)
+        Self(DRIVES.into_iter().map(drive).collect())
     }
 }
 

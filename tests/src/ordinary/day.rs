@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, VecDeque};
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-use supervisor::{ConfigError, Level, Reason};
+use supervisor::{Level, Reason, Sealed};
 
 use super::human::{Human, Intent, Style};
 use super::route::{Piece, Plan, Step, plan};
@@ -227,10 +227,8 @@ impl Hooks for Route {
 }
 
 /// Drives this way in m. The same seed gives the same day.
-///
-/// # Errors
-/// If the default configuration is refused.
-pub fn day(main_seed: u64, number: u64, metres: f64) -> Result<Day, ConfigError> {
+#[must_use]
+pub fn day(sealed: Sealed, main_seed: u64, number: u64, metres: f64) -> Day {
     let parameters = Parameters { power_told: true, ..Parameters::DEFAULT };
     let (name, title, description) = ("ordinary", "An ordinary day", "");
     let scenario = Scenario {
@@ -243,7 +241,7 @@ pub fn day(main_seed: u64, number: u64, metres: f64) -> Result<Day, ConfigError>
         road: &PLACES,
         misdeeds: &[],
     };
-    let mut bench = Bench::new(&scenario)?.driven_by(Controller::without_mitigation());
+    let mut bench = Bench::configured(&scenario, sealed).driven_by(Controller::without_mitigation());
     let mut route = Route::new(seed_of(main_seed, "day", number), parameters);
     let mut seen = Looker::default();
     let longest =
@@ -256,7 +254,7 @@ pub fn day(main_seed: u64, number: u64, metres: f64) -> Result<Day, ConfigError>
     }
     let mut day = seen.day;
     (day.metres, day.took_ms, day.pieces) = (bench.truth().position, bench.now_ms(), route.count);
-    Ok(day)
+    day
 }
 
 /// Looks at every cycle.

@@ -22,7 +22,8 @@ use sha2::{Digest as _, Sha256};
 use supervisor::wire::Frame;
 use supervisor::{ConfigError, Record};
 
-use super::columns::{Column, commands, decision, digest};
+use super::columns::{Column, commands, decision};
+use super::digest::digest;
 use super::{Read, Vector, run};
 
 /// Why the files could not be written.
@@ -154,7 +155,7 @@ impl Binary {
 /// It cannot be written, or the default configuration is refused.
 pub fn write_binary(path: &Path, vector: &Vector) -> Result<(), VectorError> {
     let mut file = Binary::create(path, vector)?;
-    run(vector, |read, made| Ok::<(), VectorError>(file.cycle(read, digest(&decision(made), &made.sent))?))?;
+    run(vector, |read, made| Ok::<(), VectorError>(file.cycle(read, digest(&made.decision, &made.sent))?))?;
     file.0.finish()?;
     Ok(())
 }
@@ -177,7 +178,7 @@ pub fn write(folder: &Path, vector: &Vector) -> Result<Vec<(String, String)>, Ve
     let (mut cycle, mut before) = (0_usize, 0_usize);
     run(vector, |read, made| {
         let columns = decision(made);
-        let digest = digest(&columns, &made.sent);
+        let digest = digest(&made.decision, &made.sent);
         binary.cycle(read, digest)?;
         for (at_ms, frame) in &read.frames {
             let (id, length) = (frame.id, frame.length);

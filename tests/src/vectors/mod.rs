@@ -2,13 +2,14 @@
 //!
 //! A vector is a start (reset cause, persisted record, default configuration) and a list of cycles: the frames that came
 //! before it, each with its time, and the time of the step. [`run`] gives for each cycle the commands as they were read,
-//! everything that was decided, and the frames that were sent. [`digest`](columns::digest) makes one number of a cycle;
+//! everything that was decided, and the frames that were sent. [`digest`](digest::digest) makes one number of a cycle;
 //! two implementations whose digests agree have decided and sent the same to the bit.
 //!
 //! The five shipped drives and the sets of [`boundary`] are vectors; [`files`] writes them.
 
 pub mod boundary;
 pub mod columns;
+pub mod digest;
 pub mod files;
 
 use supervisor::wire::{Frame, Receiver, Sender};

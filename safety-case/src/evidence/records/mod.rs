@@ -130,6 +130,9 @@ pub struct Made<'a> {
     pub drives: Option<&'a [Drive]>,
 }
 
+/// The page of the scenarios, beside those of the drives.
+pub const SCENARIOS: &str = "scenarios.html";
+
 /// Every record.
 ///
 /// # Errors
@@ -153,7 +156,7 @@ pub fn standings(
     all.push(other::cost(root)?);
     all.push(other::fuzz(root)?);
     all.push(other::disturb(root)?);
-    all.push(other::simulate(root)?);
+    all.push(other::simulate(root, made.drives.is_some())?);
     all.push(other::target(root)?);
     Ok(all)
 }

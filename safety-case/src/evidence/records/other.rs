@@ -9,7 +9,7 @@ use std::path::Path;
 
 use serde_json::Value;
 
-use super::{Standing, State};
+use super::{SCENARIOS, Standing, State};
 use crate::error::{ToolError, form, read};
 use crate::inject::Sources;
 use crate::prove::shipped;
@@ -38,7 +38,7 @@ pub(super) fn disturb(root: &Path) -> Result<Standing, ToolError> {
     Ok(standing)
 }
 
-pub(super) fn simulate(root: &Path) -> Result<Standing, ToolError> {
+pub(super) fn simulate(root: &Path, drawn: bool) -> Result<Standing, ToolError> {
     let mut standing = Standing::new(
         "simulate",
         "Scenarios of the sources in closed loop",
@@ -46,6 +46,7 @@ pub(super) fn simulate(root: &Path) -> Result<Standing, ToolError> {
         "supervise simulate --all",
         "A vehicle: the bus is a model.",
     );
+    standing.page = drawn.then(|| format!("drives/{SCENARIOS}"));
     fill(root, &mut standing)?;
     Ok(standing)
 }
@@ -55,7 +56,7 @@ pub(super) fn target(root: &Path) -> Result<Standing, ToolError> {
         "target",
         "Golden vectors and figures of the target",
         "safety-case/records/target.json",
-        "supervisor/capi",
+        "supervisor/capi/example/run, supervisor/capi/example/figures --write",
         "The integrator's own target, compiler and clock.",
     );
     fill(root, &mut standing)?;
