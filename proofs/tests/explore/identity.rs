@@ -70,11 +70,27 @@ pub fn watches<'a>(state: &'a mut State, config: &Config) -> [Watch<'a>; 30] {
         body: _,
         monitors:
             Monitors {
-                brake: Follow { reference: _, start: _, command: brake_command, response: brake_response, following: _ },
+                brake:
+                    Follow {
+                        reference: _,
+                        start: _,
+                        command: brake_command,
+                        response: brake_response,
+                        following: _,
+                        far: _,
+                    },
                 short,
                 helps: _,
                 brake_over,
-                drive: Follow { reference: _, start: _, command: drive_command, response: drive_response, following: _ },
+                drive:
+                    Follow {
+                        reference: _,
+                        start: _,
+                        command: drive_command,
+                        response: drive_response,
+                        following: _,
+                        far: _,
+                    },
                 excess,
                 told: _,
                 disobeys: _,

@@ -1,6 +1,6 @@
 //! `supervise disturb`.
 
-use super::{FINDINGS, config, Outcome, print, root, write};
+use super::{FINDINGS, Outcome, config, print, root, write};
 use crate::cli::Disturb;
 use crate::disturb::page::page;
 use crate::disturb::record::{RECORD, read};

@@ -113,7 +113,8 @@ pub fn collect(
     };
     if let Some(folder) = &request.drives {
         say("scenarios");
-        let driven = simulate(&load::all(&root.join("tests/scenarios"))?, &simulate::Request { seed: 1, ..Default::default() })?;
+        let driven =
+            simulate(&load::all(&root.join("tests/scenarios"))?, &simulate::Request { seed: 1, ..Default::default() })?;
         let path = folder.join(records::SCENARIOS);
         std::fs::write(&path, simulate::page::page(&driven, 1)?).map_err(|error| file(&path, error))?;
     }

@@ -102,7 +102,8 @@ impl<'a> Names<'a> {
             let name = path.to_string_lossy().replace('\\', "/");
             let is_head = name != "supervisor/src/lib.rs" && name.ends_with("/src/lib.rs");
             let is_rust = path.extension().is_some_and(|extension| extension == "rs");
-            let is_part = name.contains("/src/") && is_rust && !is_head;
+            // What stands in an example does not ship.
+            let is_part = name.contains("/src/") && is_rust && !is_head && !name.contains("/example/");
             // A row may speak of a whole folder.
             let is_named =
                 path.ancestors().any(|part| named.contains(part.to_string_lossy().replace('\\', "/").as_str()));

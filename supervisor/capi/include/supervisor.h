@@ -35,10 +35,10 @@
 #define SUPERVISOR_RECORD_BROKEN 255
 
 // Version of this header. A library of another version refuses to start.
-#define SUPERVISOR_ABI_VERSION 1
+#define SUPERVISOR_ABI_VERSION 2
 
 // Length of a sealed configuration in bytes.
-#define SUPERVISOR_SEALED_BYTES 704
+#define SUPERVISOR_SEALED_BYTES 708
 
 // How many frames a step gives at most: so many must the buffer hold.
 #define SUPERVISOR_OUTPUT_FRAMES 16

@@ -1,9 +1,9 @@
 //! Memory of the caller, opaque to him, and the numbers that he needs before he calls.
 
 /// Version of this header. A library of another version refuses to start.
-pub const SUPERVISOR_ABI_VERSION: u32 = 1;
+pub const SUPERVISOR_ABI_VERSION: u32 = 2;
 /// Length of a sealed configuration in bytes.
-pub const SUPERVISOR_SEALED_BYTES: usize = 704;
+pub const SUPERVISOR_SEALED_BYTES: usize = 708;
 /// How many frames a step gives at most: so many must the buffer hold.
 pub const SUPERVISOR_OUTPUT_FRAMES: usize = 16;
 /// How many channels there are.

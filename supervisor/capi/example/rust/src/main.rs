@@ -146,7 +146,7 @@ fn main() -> ! {
     loop {}
 }
 
-/// The supervisor has no panic in it (SELF-1b); this program around it may have.
+/// The supervisor has no panic in it; this program around it may have.
 #[panic_handler]
 fn panic(_: &PanicInfo<'_>) -> ! {
     debug::exit(debug::EXIT_FAILURE);
