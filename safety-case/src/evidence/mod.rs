@@ -113,10 +113,10 @@ pub fn collect(
     };
     if let Some(folder) = &request.drives {
         say("scenarios");
-        let driven =
+        let scenes =
             simulate(&load::all(&root.join("tests/scenarios"))?, &simulate::Request { seed: 1, ..Default::default() })?;
         let path = folder.join(records::SCENARIOS);
-        std::fs::write(&path, simulate::page::page(&driven, 1)?).map_err(|error| file(&path, error))?;
+        std::fs::write(&path, simulate::page::page(&scenes, 1)?).map_err(|error| file(&path, error))?;
     }
     let made = Made { trace: &trace, log: log.as_ref(), drives: drives.as_deref() };
     let standings = standings(root, made, say)?;
