@@ -110,13 +110,14 @@ impl<'a> Bench<'a> {
     /// The same with a configuration of its own.
     #[must_use]
     pub fn configured(scenario: &Scenario<'a>, sealed: Sealed) -> Self {
+        let supervisor = Supervisor::new(sealed, ResetCause::PowerOn, Some(Record::None));
         Self {
             now_ms: 0,
-            supervisor: Supervisor::new(sealed, ResetCause::PowerOn, Some(Record::None)),
+            link: Link::new(supervisor.config()),
+            supervisor,
             plant: Plant::new(scenario.parameters, scenario.script, scenario.road),
             controller: Controller::default(),
             pace: Pace::default(),
-            link: Link::new(sealed.intact().unwrap_or(&Config::DEFAULT)),
             wanted: Outputs::NEUTRAL,
             obeys: Obeys::Supervisor,
             last: None,

@@ -270,6 +270,26 @@ fn while_the_bus_brakes_enough_nothing_enters() {
     }
 }
 
+/// MIT-6e, R-ah: where less than the least deceleration is required nothing enters, to the least bit; with the gap used up
+/// everything does. The default holds nothing back.
+#[test]
+fn where_little_is_required_nothing_enters() {
+    // 10 m/s, 35 m: 3012 bits, as above.
+    for (least, distance, level) in [
+        (0, 3_500, Level::Two),
+        (3_012, 3_500, Level::Two),
+        (3_013, 3_500, Level::None),
+        (5_120, 3_500, Level::None),
+        (5_120, 100, Level::Three),
+    ] {
+        let config = Config { level_least_required: DecelMs2Q11::new(least), ..Config::DEFAULT };
+        let mut bus = Bus::driving_with(&config, kmh(50));
+        bus.ahead(at(distance));
+        assert_eq!(bus.step().status.level, level, "{least} {distance}");
+    }
+    assert_eq!(Config::DEFAULT.level_least_required, DecelMs2Q11::ZERO);
+}
+
 /// MIT-6c: with the gap used up (gap ≤ margin) no deceleration is enough.
 #[test]
 fn with_the_gap_used_up_no_deceleration_is_enough() {

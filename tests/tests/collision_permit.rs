@@ -74,6 +74,31 @@ fn on_a_clear_road_the_total_is_capped_at_3_5() {
     }
 }
 
+/// PHB-1a, R-ag: a bus that is known to stand throws nobody: 6 m/s² pass; from 0.3 km/h of the faster speed on, or with
+/// one unknown, 3.5 again.
+#[test]
+fn at_standstill_the_full_cap_is_free() {
+    let standstill = Config::DEFAULT.standstill_speed;
+    for (low, high, limit) in [
+        (kmh(0), kmh(0), 600),
+        (kmh(0), bit_below(standstill), 600),
+        (kmh(0), standstill, 350),
+        (standstill, standstill, 350),
+    ] {
+        let mut bus = Bus::driving(kmh(50));
+        bus.speeds(low, high);
+        bus.ask_brake(ms2(1_000));
+        let decision = bus.step();
+        assert_eq!(decision.outputs.brake.total, ms2(limit), "{low:?} {high:?}");
+    }
+    for cause in CAUSES {
+        let mut bus = Bus::driving(kmh(0));
+        bus.inputs.motor_speed = unknown(*cause);
+        bus.ask_brake(ms2(600));
+        assert_eq!(bus.step().outputs.brake.total, ms2(350), "unknown is no evidence of standstill");
+    }
+}
+
 /// PHB-1a, RET-1a: service brake and retarder together; the retarder takes what is left.
 #[test]
 fn the_retarder_counts_in_the_cap() {

@@ -59,6 +59,18 @@ fn both_in_level_three() {
     assert!(applies(&decision));
 }
 
+/// EPB-1b, RSP-1k, R-af: brakes that give 85 % of 5 m/s², less than the 95 % that they should, are helped by the retarder and not by
+/// the parking brake; with one bit less by both.
+#[test]
+fn nearly_enough_is_left_to_the_retarder() {
+    for (measured, parks) in [(8_704, false), (8_703, true)] {
+        let mut bus = unbraked_level_three();
+        bus.inputs.deceleration = known(DecelMs2Q11::new(measured));
+        assert!(bus.time_until(CYCLE, 2_000, helps).is_some(), "{measured}");
+        assert_eq!(bus.time_until(CYCLE, 2_000, applies).is_some(), parks, "{measured}");
+    }
+}
+
 /// EPB-1b, RSP-1k: a parking brake that makes up for the brakes is not released again while level 3 runs.
 #[test]
 fn the_parking_brake_stays() {

@@ -4,26 +4,12 @@
 
 use std::path::Path;
 
-use super::records::{Standing, State};
+use super::records::{COMMITTED, Standing, State};
 use crate::error::{ToolError, read};
 use crate::number::grouped;
 
 /// Documents that have such tables.
 pub const DOCUMENTS: [&str; 2] = ["README.md", "safety-case/README.md"];
-/// Records that are committed, in the order of the tables.
-const COMMITTED: [&str; 11] = [
-    "proofs",
-    "mistakes",
-    "contracts",
-    "inject",
-    "coverage",
-    "mutants",
-    "fuzz",
-    "disturb",
-    "simulate",
-    "cost",
-    "target",
-];
 /// Where the claims of the independent oracle stand.
 const ORACLE: &str = "tests/tests/oracle";
 const END: &str = "<!-- end of evidence -->";

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use super::Finding;
-use super::records::NAMES;
+use super::records::{COMMITTED, MADE};
 use crate::analysis::{Analysis, Evidence, Kind};
 use crate::argument::Argument;
 use crate::error::{ToolError, read};
@@ -49,7 +49,7 @@ impl<'a> Names<'a> {
             Kind::Mistake => self.mistakes.contains(name),
             Kind::Fault => self.faults.contains(name),
             Kind::Test => self.root.join(name).is_file(),
-            Kind::Record => NAMES.contains(&name),
+            Kind::Record => COMMITTED.contains(&name) || MADE.contains(&name),
             Kind::Step => self.steps.contains(name),
         }
     }

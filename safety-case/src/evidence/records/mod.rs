@@ -161,24 +161,22 @@ pub fn standings(
     Ok(all)
 }
 
-/// The names that an argument may refer to.
-pub const NAMES: [&str; 15] = [
+/// Records that are committed, in the order of the tables.
+pub const COMMITTED: [&str; 11] = [
     "proofs",
     "mistakes",
     "contracts",
     "inject",
     "coverage",
     "mutants",
-    "trace",
-    "tests",
-    "exploration",
-    "drives",
-    "cost",
     "fuzz",
     "disturb",
     "simulate",
+    "cost",
     "target",
 ];
+/// Those that every run makes anew.
+pub const MADE: [&str; 4] = ["trace", "tests", "exploration", "drives"];
 
 /// The figures of all records: `inject.dangerous`.
 #[must_use]
