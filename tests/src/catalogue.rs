@@ -53,7 +53,7 @@ const SEAT: Script<'static> = after_start![
 ];
 
 /// The driver lets the accelerator go at 30 km/h, brakes, drives on, and gets up at 60 km/h: more than the retarder makes up
-/// for alone (R-af).
+/// for alone.
 const FAULTY: Script<'static> = after_start![
     (10_500, Act::Hold(30.0)),
     (26_000, Act::Accelerator(0.0)),

@@ -59,8 +59,8 @@ fn both_in_level_three() {
     assert!(applies(&decision));
 }
 
-/// EPB-1b, RSP-1k, R-af: brakes that give 85 % of 5 m/s², less than the 95 % that they should, are helped by the retarder and not by
-/// the parking brake; with one bit less by both.
+/// EPB-1b, RSP-1k, R-af: in level 3, brakes that give 85 % of 5 m/s², less than the 95 % that they should, are helped by
+/// the retarder and not by the parking brake; with one bit less by both.
 #[test]
 fn nearly_enough_is_left_to_the_retarder() {
     for (measured, parks) in [(8_704, false), (8_703, true)] {
@@ -68,6 +68,19 @@ fn nearly_enough_is_left_to_the_retarder() {
         bus.inputs.deceleration = known(DecelMs2Q11::new(measured));
         assert!(bus.time_until(CYCLE, 2_000, helps).is_some(), "{measured}");
         assert_eq!(bus.time_until(CYCLE, 2_000, applies).is_some(), parks, "{measured}");
+    }
+}
+
+/// EPB-1b, R-af: in leave it is not: 1.85 m/s² of 1.95, one bit less than 95 %, calls the parking brake 500 ms after the
+/// retarder; with that bit neither is called.
+#[test]
+fn nearly_enough_is_not_enough_in_leave() {
+    let enough = (u32::from(ms2(195).raw()) * 95).div_ceil(100) as u16;
+    for (measured, parks) in [(enough, None), (enough - 1, Some(490))] {
+        let mut bus = unbraked_leave();
+        bus.inputs.deceleration = known(DecelMs2Q11::new(measured));
+        assert_eq!(bus.time_until(CYCLE, 2_000, helps).is_some(), parks.is_some(), "{measured}");
+        assert_eq!(bus.time_until(CYCLE, 2_000, applies), parks, "{measured}");
     }
 }
 

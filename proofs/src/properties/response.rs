@@ -106,13 +106,14 @@ pub fn rsp_1_brake_is_compared(watch: &Watch<'_>) -> bool {
 }
 
 /// RSP-1k, RSP-1m, EPB-1b: confirmed exactly for a shortfall, the help that it called or EBS red, at once; persistent
-/// exactly for a shortfall beyond the error allowed that EBS is red or level 3 runs with, or that the retarder had its time
-/// for (R-af).
+/// exactly for a shortfall that EBS is red or level 3 runs with, or that the retarder had its time for; in level 3 only
+/// beyond the error allowed (R-af).
 #[must_use]
 pub fn rsp_1_brake_escalates_exactly(watch: &Watch<'_>) -> bool {
     let (short, red) = (short(watch), watch.inputs.ebs_red.is(true));
     let due = red || watch.old.emergency || watch.new.short.reached(watch.config.response_retarder);
-    let expected = match (short && due && watch.new.brake.far, short || watch.new.helps || red) {
+    let enough = watch.old.emergency && !watch.new.brake.far;
+    let expected = match (short && due && !enough, short || watch.new.helps || red) {
         (true, _) => Deviation::Persistent,
         (false, true) => Deviation::Confirmed,
         (false, false) => Deviation::None,

@@ -196,10 +196,10 @@ impl Monitors {
         let short = self.falls_short(config);
         let red = inputs.ebs_red.is(true);
         // RSP-1m: EBS red calls the next means at once, and the one after it as soon as a shortfall is confirmed; level 3
-        // has no time to try one after the other. What is late, but within the error that S4 allows, is left to the retarder
-        // (R-af).
+        // has no time to try one after the other: there, what is within the error that S4 allows is left to the retarder (R-af).
         let due = red || self.emergency || self.short.reached(config.response_retarder);
-        let brake = if short && self.brake.far && due {
+        let enough = self.emergency && !self.brake.far;
+        let brake = if short && due && !enough {
             Deviation::Persistent
         } else if short || self.helps || red {
             Deviation::Confirmed
