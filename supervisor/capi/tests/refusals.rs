@@ -210,16 +210,21 @@ fn a_running_call_is_refused() {
     assert_eq!(step(&mut state, 10).code, SupervisorCode::Ok);
 }
 
+/// Aligned for any argument, so that what overlaps is not misaligned, too.
+#[repr(align(8))]
+struct Aligned<T>(T);
+
 /// SELF-1a: two arguments that share memory, for every pair.
 #[test]
 fn overlapping_is_refused() {
     let mut state = started();
     let inside = (&raw mut *state).cast::<u64>().wrapping_add(20);
     let state = &raw mut *state;
-    let (mut decision, mut frames, mut count) = (NO_DECISION, [NO_FRAME; SUPERVISOR_OUTPUT_FRAMES], 7_usize);
-    let (decision, first, count, room) = (&raw mut decision, frames.as_mut_ptr(), &raw mut count, frames.len());
-    let (mut asked, mut verdict) = (NO_OUTPUTS, NO_DECISION.verdicts[0]);
-    let (asked, verdict) = (&raw mut asked, &raw mut verdict);
+    let (mut decision, mut frames) = (Aligned(NO_DECISION), Aligned([NO_FRAME; SUPERVISOR_OUTPUT_FRAMES]));
+    let (mut count, room) = (7_usize, SUPERVISOR_OUTPUT_FRAMES);
+    let (decision, first, count) = (&raw mut decision.0, frames.0.as_mut_ptr(), &raw mut count);
+    let (mut asked, mut verdict) = (Aligned(NO_OUTPUTS), NO_DECISION.verdicts[0]);
+    let (asked, verdict) = (&raw mut asked.0, &raw mut verdict);
     let mut outputs = NO_OUTPUTS;
     let (outputs, none) = (&raw mut outputs, core::ptr::null_mut());
     for (number, code) in [
@@ -309,11 +314,10 @@ fn a_bad_configuration_does_not_start() {
 /// SELF-9a: reset cause and record are codes of their tables; 255 is a record that fails its CRC.
 #[test]
 fn a_code_of_no_table_is_refused() {
-    for cause in 0..=u8::MAX {
-        for record in 0..=u8::MAX {
-            if cfg!(miri) && cause.wrapping_add(record) % 64 > 3 {
-                continue;
-            }
+    // Every code; under Miri, which takes its time, those around what is known.
+    let tried = || (0..=u8::MAX).filter(|code| !cfg!(miri) || *code < 4 || *code > 253);
+    for cause in tried() {
+        for record in tried() {
             let known = cause < 3 && (record < 3 || record == SUPERVISOR_RECORD_BROKEN);
             let expected = if known { SupervisorCode::Ok } else { SupervisorCode::Value };
             assert_eq!(init(&raw mut *zeroed(), &sealed(), cause, record), expected, "{cause} {record}");
@@ -321,7 +325,7 @@ fn a_code_of_no_table_is_refused() {
     }
     let mut state = started();
     assert_eq!(step(&mut state, 10).code, SupervisorCode::Ok);
-    for channel in 0..=u8::MAX {
+    for channel in (0..=u8::MAX).filter(|channel| !cfg!(miri) || (10..14).contains(channel)) {
         let expected = if channel < 12 { SupervisorCode::Ok } else { SupervisorCode::Value };
         assert_eq!(vet(&mut state, 10, channel, &NO_OUTPUTS).0, expected, "{channel}");
     }
