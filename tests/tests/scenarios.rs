@@ -13,6 +13,7 @@ type Outcome = Result<(), Box<dyn Error>>;
 const S1: [&str; 3] = ["s1-approach", "s1-pedestrian", "disturbed-approach"];
 const S2: [&str; 2] = ["s2-override", "s2-small-pedal"];
 const S3: [&str; 4] = ["s3-leave", "s3-return", "s3-start-without-sequence", "slope-leave"];
+const R131: [&str; 3] = ["r131-stationary", "r131-moving", "r131-between-cars"];
 const ROAD: [&str; 7] = ["stationary", "moving", "braking-lead", "pedestrian-crossing", "cut-in", "cut-out", "slope"];
 const ORDINARY: [&str; 3] = ["low-friction", "ordinary-stop", "ordinary-route"];
 
@@ -49,6 +50,12 @@ fn the_sequence_of_s3_is_as_demanded() -> Outcome {
     as_demanded(&S3)
 }
 
+/// MIT-1a, MIT-2a, MIT-3a, FCW-1a, FUS-3e: the tests of UN R131 at 80 km/h, and between two cars that stand.
+#[test]
+fn the_tests_of_r131_are_as_demanded() -> Outcome {
+    as_demanded(&R131)
+}
+
 /// MIT-1a, MIT-4c, MIT-6a, FUS-3e: standing, slower, braking and crossing targets, cut-in, cut-out, slopes.
 #[test]
 fn the_longitudinal_table_is_as_demanded() -> Outcome {
@@ -64,7 +71,7 @@ fn ordinary_and_slippery_roads_are_as_demanded() -> Outcome {
 #[test]
 fn every_scenario_is_in_one_of_these_tests() -> Outcome {
     let there: BTreeSet<String> = all(&folder())?.into_iter().map(|scene| scene.name).collect();
-    let tested = [&S1[..], &S2, &S3, &ROAD, &ORDINARY].concat().into_iter().map(str::to_owned).collect();
+    let tested = [&S1[..], &S2, &S3, &R131, &ROAD, &ORDINARY].concat().into_iter().map(str::to_owned).collect();
     assert_eq!(there, tested);
     Ok(())
 }
