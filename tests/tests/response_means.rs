@@ -75,7 +75,7 @@ fn nearly_enough_is_left_to_the_retarder() {
 /// retarder; with that bit neither is called.
 #[test]
 fn nearly_enough_is_not_enough_in_leave() {
-    let enough = (u32::from(ms2(195).raw()) * 95).div_ceil(100) as u16;
+    let enough = ms2(195).raw() - ms2(195).raw() / 20;
     for (measured, parks) in [(enough, None), (enough - 1, Some(490))] {
         let mut bus = unbraked_leave();
         bus.inputs.deceleration = known(DecelMs2Q11::new(measured));
