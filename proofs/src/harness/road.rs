@@ -8,7 +8,7 @@ use crate::properties::body::{
 };
 use crate::properties::brake::{
     cmd_3f_brake_counts_from_last_output, e2e_2_lost_request_is_told, e2e_2c_lost_request_holds,
-    e2e_2d_then_falls_by_the_ramp,
+    e2e_2d_then_falls_by_the_ramp, rsp_1_held_against_what_went_out,
 };
 use crate::properties::retarder::ret_1b_none_beside_abs;
 use crate::properties::split::{vlc_2_electric_limit_exactly, vlc_3_implausible_is_told};
@@ -38,6 +38,21 @@ fn vlc_2_bounds_of_the_road() {
     kani::cover!(envelope.warnings.fault_lamp, "the fault lamp");
     kani::cover!(envelope.lamps_delayed, "the lamps stay on");
     kani::cover!(outputs.retarder.torque > Percent::ZERO, "a retarder torque passes");
+}
+
+/// RSP-1a to RSP-1e, SELF-10a: what the actuators are held against from the next cycle on.
+#[kani::proof]
+#[kani::unwind(17)]
+#[kani::stub(supervisor_core::kernel::together, crate::harness::uninterpreted::together)]
+fn rsp_1_next_cycle_is_held_against_the_output() {
+    let mut any = Any::new();
+    let outputs = kani::any();
+    any.record(&outputs);
+    assert!(rsp_1_held_against_what_went_out(&any.cycle(&outputs)));
+    let (before, next) = (&any.decided.state.monitors, &any.next.monitors);
+    kani::cover!(next.total > next.service, "the retarder is told to help");
+    kani::cover!(next.emergency && !before.emergency, "level 3 begins");
+    kani::cover!(next.torque > before.torque, "more torque than before");
 }
 
 /// E2E-2, CMD-3f, BODY-1c: for how long a lost request holds, how it falls then, and what the next cycle begins with.

@@ -22,7 +22,8 @@ pub const ALL: &[Property] = all![
     e2e_2d_then_falls_by_the_ramp,
     e2e_2_lost_request_is_told,
     cmd_3f_brake_counts_from_last_output,
-    rsp_1_retarder_helps
+    rsp_1_retarder_helps,
+    rsp_1_held_against_what_went_out
 ];
 
 /// SEAT-3a, MIT-1b, MIT-2b, MIT-3b: the service brake is never below the demand of leave and of the set latches.
@@ -185,6 +186,15 @@ pub fn cmd_3f_brake_counts_from_last_output(cycle: &Cycle<'_>) -> bool {
         && next.slow == before.slow
         && counts(before.lost, next.lost, lost, elapsed)
         && counts(before.retarder_lost, next.retarder_lost, retarder_lost, elapsed)
+}
+
+/// RSP-1a, RSP-1b, RSP-1c, RSP-1d, RSP-1e, SELF-10a: the actuators are held against what went out in this cycle: the outputs,
+/// service brake and retarder together, and whether level 3 runs.
+#[must_use]
+pub fn rsp_1_held_against_what_went_out(cycle: &Cycle<'_>) -> bool {
+    let (bound, out) = (&cycle.envelope.brake, cycle.outputs);
+    let together = kernel::together(out.brake.total.raw(), bound.retarder_decel.raw(), out.retarder.torque.raw());
+    cycle.next.monitors == cycle.new.monitors.record(out, DecelMs2Q11::new(together), cycle.new.mitigation.three)
 }
 
 /// RSP-1k, RSP-1l, RSP-1m: brakes that fall short of an obligation are helped by all that the retarder may give,

@@ -131,11 +131,12 @@ fn attacks(standings: &[Standing], claims: usize) -> String {
         &state(of("mistakes"), "**not run**", |standing| {
             let get = |name| get(standing, name);
             format!(
-                "{} of {} caught by a proof; {} changes nothing that goes out, and says why; {} drawn ones run",
+                "{} of {} caught by a proof; {} changes nothing that goes out, and says why; of {} drawn ones {} caught, the others stand in `proofs/README.md`",
                 get("caught"),
                 get("named"),
                 get("surviving"),
-                get("drawn")
+                get("drawn"),
+                get("drawn caught")
             )
         }),
     );

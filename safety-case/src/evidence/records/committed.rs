@@ -120,8 +120,10 @@ fn named_mistakes(shared: &Shared<'_>) -> Outcome {
     standing.figure("named", list.mistake.len(), "named mistakes");
     standing.figure("caught", caught, "caught by a proof alone");
     standing.figure("surviving", surviving, "that change nothing that goes out, and say why");
-    let drawn = record.drawn.mistakes.iter().filter(|entry| entry.outcome.is_mistake()).count();
-    standing.figure("drawn", drawn, "drawn ones that ran");
+    let drawn: Vec<_> = record.drawn.mistakes.iter().filter(|entry| entry.outcome.is_mistake()).collect();
+    standing.figure("drawn", drawn.len(), "drawn ones that ran");
+    let caught = drawn.iter().filter(|entry| entry.outcome.is_caught()).count();
+    standing.figure("drawn caught", caught, "of these caught by a proof alone");
     Ok(standing)
 }
 
