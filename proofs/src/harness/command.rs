@@ -1,15 +1,15 @@
 //! What becomes of a command (CMD-1, CMD-2, CMD-3, CMD-5), against any feasible envelope.
 
 use supervisor_core::{
-    AdsState, BrakeMode, Channel, Command, Commands, ContactorRequest, DecelMs2Q11, DriveTorque, DrivingMode, Envelope,
-    EpbMode, EpbRequest, GearRequest, Kind, Millis, Origin, Outputs, Percent, Priority, Rejection, RetarderMode,
-    ServiceBrake, Steering, Timeouts, Wiper, vet_auxiliaries, vet_body, vet_brake, vet_contactors, vet_drive, vet_epb,
-    vet_gear, vet_mode, vet_retarder, vet_steering, vet_target_speed, vet_warnings,
+    AdsState, Body, Bound, BrakeMode, Channel, Command, Commands, ContactorRequest, DecelMs2Q11, DriveTorque,
+    DrivingMode, Envelope, EpbMode, EpbRequest, GearRequest, Kind, Millis, Origin, Outputs, Percent, Priority,
+    Rejection, Retarder, RetarderMode, ServiceBrake, Steering, Timeouts, Wiper, vet_auxiliaries, vet_body, vet_brake,
+    vet_contactors, vet_drive, vet_epb, vet_gear, vet_mode, vet_retarder, vet_steering, vet_target_speed, vet_warnings,
 };
 
 use crate::properties::command::{
-    cmd_2_usable_exactly, cmd_5_brake_nearest, cmd_5_drive_nearest, cmd_5_envelope_explains, cmd_5_steering_nearest,
-    cmd_5_verdict_is_true,
+    brake_instead, cmd_2_lost_is_told, cmd_2_usable_exactly, cmd_5_brake_nearest, cmd_5_drive_nearest,
+    cmd_5_envelope_explains, cmd_5_steering_nearest, cmd_5_verdict_is_true,
 };
 
 /// CMD-2: any command of any channel is usable exactly when it is fresh, or held within its time-out.
@@ -52,6 +52,43 @@ fn cmd_2_rejected_is_absent() {
     same!(|command| vet_body(&envelope, braking, command));
     same!(|command| vet_mode(&envelope, command));
     kani::cover!(envelope.brake.fallback > DecelMs2Q11::ZERO, "a brake request that holds");
+}
+
+/// CMD-2e, CMD-5b: a command that is lost or refused is told as that on every channel, where what stands for it goes out. Drive torque
+/// is not among them: what refuses it speaks first.
+#[kani::proof]
+fn cmd_2_lost_is_told_on_every_channel() {
+    let (envelope, commands): (Envelope, Commands) = (kani::any(), kani::any());
+    let (mode, braking, torque): (DrivingMode, DecelMs2Q11, Percent) = (kani::any(), kani::any(), kani::any());
+    let most: Bound<Percent> = kani::any();
+    let neutral = Outputs::NEUTRAL;
+    let Timeouts { ms50, ms100, ms200 } = envelope.timeouts;
+    macro_rules! told {
+        ($field:ident, $timeout:ident, $instead:expr, $vetted:expr) => {{
+            let (instead, vetted) = ($instead, $vetted);
+            assert!(cmd_2_lost_is_told(commands.$field, $timeout, (instead, neutral.$field), vetted));
+            kani::cover!(
+                commands.$field.usable($timeout).is_err() && vetted.0 == instead,
+                "lost, and nothing asks for more"
+            );
+        }};
+    }
+    let retarder = match envelope.brake.retarder_fallback {
+        Percent::ZERO => Retarder::NEUTRAL,
+        torque => Retarder { torque, mode: RetarderMode::Torque, priority: Priority::Low },
+    };
+    let body = Body { horn: false, brake_lamps: false, ..envelope.body_fallback };
+    told!(gear, ms100, neutral.gear, vet_gear(&envelope, commands.gear));
+    told!(brake, ms50, brake_instead(&envelope), vet_brake(&envelope, commands.brake));
+    told!(retarder, ms100, retarder, vet_retarder(&envelope, most, commands.retarder));
+    told!(target_speed, ms50, neutral.target_speed, vet_target_speed(&envelope, mode, commands.target_speed));
+    told!(epb, ms200, neutral.epb, vet_epb(&envelope, commands.epb));
+    told!(steering, ms50, neutral.steering, vet_steering(&envelope, commands.steering));
+    told!(auxiliaries, ms200, neutral.auxiliaries, vet_auxiliaries(&envelope, commands.auxiliaries));
+    told!(warnings, ms200, neutral.warnings, vet_warnings(&envelope, commands.warnings));
+    told!(body, ms200, body, vet_body(&envelope, braking, commands.body));
+    told!(mode, ms200, neutral.mode, vet_mode(&envelope, commands.mode));
+    told!(contactors, ms100, neutral.contactors, vet_contactors(&envelope, torque, commands.contactors));
 }
 
 /// CMD-5e: what is limited goes to the nearest value inside its bound.

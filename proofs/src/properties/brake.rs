@@ -5,6 +5,7 @@ use supervisor_core::{
     kernel,
 };
 
+use super::command::brake_instead;
 use super::known::{asked, counts, lasted};
 use super::leave::at_least_table;
 use super::{Cycle, Property, all, implies};
@@ -88,17 +89,7 @@ pub fn rule_1d_slow_is_kept(cycle: &Cycle<'_>) -> bool {
 
 /// What is asked for: the command, or what a lost one counts as, which the driver's pedal exceeds.
 fn wanted(of: &Cycle<'_>) -> ServiceBrake {
-    let bound = &of.envelope.brake;
-    asked(of.commands.brake, of.envelope.timeouts.ms50).unwrap_or(if bound.fallback == DecelMs2Q11::ZERO {
-        ServiceBrake::NEUTRAL
-    } else {
-        ServiceBrake {
-            total: bound.fallback,
-            electric: DecelMs2Q11::ZERO,
-            mode: BrakeMode::Maximum,
-            priority: Priority::Medium,
-        }
-    })
+    asked(of.commands.brake, of.envelope.timeouts.ms50).unwrap_or_else(|| brake_instead(of.envelope))
 }
 
 /// VLC-1e, VLC-2e, VLC-2g, CMD-6b, RULE-3a, RULE-3b, PHB-1d: request and obligation merge to the greater deceleration. The

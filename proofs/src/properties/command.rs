@@ -1,8 +1,8 @@
 //! What becomes of a command (CMD-2, CMD-3, CMD-5): usable or not, and a verdict that says what happened and why.
 
 use supervisor_core::{
-    Command, DecelMs2Q11, DriveTorque, DrivingMode, Envelope, GearRequest, Kind, Millis, Percent, Permission, Reason,
-    ServiceBrake, Steering, Verdict,
+    BrakeMode, Command, DecelMs2Q11, DriveTorque, DrivingMode, Envelope, GearRequest, Kind, Millis, Percent,
+    Permission, Priority, Reason, ServiceBrake, Steering, Verdict,
 };
 
 use super::implies;
@@ -35,6 +35,31 @@ pub fn cmd_5_verdict_is_true<T: Copy + PartialEq>(
     verdict.passed() == unchanged
         && (verdict.reason == Reason::Within) == unchanged
         && implies(verdict.kind == Kind::Block, out == neutral)
+}
+
+/// CMD-2e, CMD-5b: where what stands for a lost or refused command goes out, the verdict says just that: why there was no command, as
+/// blocked where nothing goes out, as substituted where something is kept.
+#[must_use]
+pub fn cmd_2_lost_is_told<T: Copy + PartialEq>(
+    command: Command<T>,
+    timeout: Millis,
+    (instead, neutral): (T, T),
+    (out, verdict): (T, Verdict),
+) -> bool {
+    let kind = if out == neutral { Kind::Block } else { Kind::Substitute };
+    let told = |reason| verdict.reason == reason && verdict.kind == kind;
+    command.usable(timeout).err().is_none_or(|reason| implies(out == instead, told(reason)))
+}
+
+/// CMD-2, E2E-2: what stands for a lost request of the service brake.
+#[must_use]
+pub fn brake_instead(envelope: &Envelope) -> ServiceBrake {
+    match envelope.brake.fallback {
+        DecelMs2Q11::ZERO => ServiceBrake::NEUTRAL,
+        total => {
+            ServiceBrake { total, electric: DecelMs2Q11::ZERO, mode: BrakeMode::Maximum, priority: Priority::Medium }
+        }
+    }
 }
 
 /// CMD-5b: every refusal and every bound that a command can meet has a reason. `decide` gives only such envelopes (proved);

@@ -180,11 +180,11 @@ fn disturbed(standing: &Standing) -> String {
     let get = |name| standing.get(name).unwrap_or("?");
     format!(
         "of {} runs {} disturbed, warnings apart; {} levels without a cause, {} collisions; {} times braked in {} m of ordinary driving: **the law of the sources is too early there**, see `disturb --check`",
-        get("runs.runs"),
-        get("runs.disturbed"),
-        get("runs.false_triggers"),
-        get("runs.collisions"),
-        get("causes.ServiceBrake Mitigation"),
+        get("runs"),
+        get("disturbed"),
+        get("false_triggers"),
+        get("collisions"),
+        get("braked"),
         get("metres"),
     )
 }

@@ -2,14 +2,15 @@
 //!
 //! A record is one JSON object. `sources` says of what it is: a digest of the shipped sources, or an object with digests by the
 //! names of [`Sources`]: `shipped`, `configuration`, `bench`, `faults`. Figures are the numbers and words at its top, or
-//! in an object `figures`; of a table of rows the sum of each column. `open` is a list of what is open.
+//! in an object `figures`. `open` is a list of what is open.
 
-use std::collections::BTreeMap;
 use std::path::Path;
 
 use serde_json::Value;
 
 use super::{SCENARIOS, Standing, State};
+use crate::disturb::Tally;
+use crate::disturb::tally::quantile;
 use crate::error::{ToolError, form, read};
 use crate::inject::Sources;
 use crate::prove::shipped;
@@ -34,7 +35,31 @@ pub(super) fn disturb(root: &Path) -> Result<Standing, ToolError> {
         "supervise disturb",
         "How often a real driver is disturbed: it is a model of driving.",
     );
-    fill(root, &mut standing)?;
+    let path = root.join(&standing.file);
+    if !path.exists() {
+        return Ok(standing);
+    }
+    let tally = Tally::read(&read(&path)?).map_err(|error| form(&path, &error))?;
+    let sources = serde_json::to_value(&tally.sources).map_err(|error| form(&path, &error))?;
+    standing.state = State::of(changed(root, Some(&sources))?);
+    let (runs, causes) = (tally.all_runs(), tally.all_causes());
+    let braked = causes.get("ServiceBrake Mitigation").copied().unwrap_or_default();
+    for (name, value, what) in [
+        ("runs", runs.runs, "runs with a correct main controller"),
+        ("disturbed", runs.disturbed, "of these with an intervention, warnings apart"),
+        ("false_triggers", runs.false_triggers, "of these with a level without a cause"),
+        ("collisions", runs.collisions, "of these with a collision"),
+        ("metres", tally.metres, "m of ordinary driving"),
+        ("stops", tally.stops, "stops in it"),
+        ("braked", braked, "times that collision mitigation braked in it"),
+        ("warnings", tally.warnings, "collision warnings in it"),
+    ] {
+        standing.figure(name, value, what);
+    }
+    if let (Some(median), Some(late)) = (quantile(&tally.reaction.all, 50), quantile(&tally.reaction.all, 99)) {
+        standing.figure("reaction_median", median, "ms from an object to a deceleration, median");
+        standing.figure("reaction_99", late, "ms, in 99 of 100");
+    }
     Ok(standing)
 }
 
@@ -113,15 +138,6 @@ fn fill(root: &Path, standing: &mut Standing) -> Result<(), ToolError> {
             standing.figure(name, value, &name.replace('_', " "));
         }
     }
-    for (name, rows) in own.iter().filter(|(name, _)| !matches!(name.as_str(), "figures" | "sources" | "wanted")) {
-        for (column, sum) in columns(rows) {
-            standing.figure(
-                &format!("{name}.{column}"),
-                sum,
-                &format!("{}, all: {}", name.replace('_', " "), column.replace('_', " ")),
-            );
-        }
-    }
     // What the campaigns of the fuzzers write: a row for each target.
     for row in fields.get("targets").and_then(Value::as_array).into_iter().flatten().filter_map(Value::as_object) {
         let target = row.get("target").and_then(Value::as_str).unwrap_or("?");
@@ -134,19 +150,6 @@ fn fill(root: &Path, standing: &mut Standing) -> Result<(), ToolError> {
     let open = fields.get("open").and_then(Value::as_array).into_iter().flatten();
     standing.open.extend(open.filter_map(scalars));
     Ok(())
-}
-
-/// The sum of each column of an object whose values are rows of numbers.
-fn columns(rows: &Value) -> BTreeMap<&str, u64> {
-    let mut sums: BTreeMap<&str, u64> = BTreeMap::new();
-    let rows = rows.as_object().into_iter().flat_map(|rows| rows.values().filter_map(Value::as_object));
-    for (column, number) in rows.flatten() {
-        if let Some(number) = number.as_u64() {
-            let sum = sums.entry(column).or_default();
-            *sum = sum.saturating_add(number);
-        }
-    }
-    sums
 }
 
 /// What is not as it was when the record was made; a record that says nothing of its sources can not be told from a stale one.
@@ -188,14 +191,7 @@ mod tests {
 
     use serde_json::{Value, json};
 
-    use super::{Sources, changed, columns};
-
-    #[test]
-    fn rows_are_summed_by_column() {
-        let rows = json!({"city": {"runs": 2, "disturbed": 1}, "coach": {"runs": 3, "disturbed": 0, "word": "x"}});
-        assert_eq!(columns(&rows), [("disturbed", 1), ("runs", 5)].into());
-        assert_eq!(columns(&json!(7)), [].into());
-    }
+    use super::{Sources, changed};
 
     #[test]
     fn a_record_is_fresh_only_with_the_digests_of_the_present_sources() -> Result<(), Box<dyn std::error::Error>> {
