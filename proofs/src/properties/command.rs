@@ -51,7 +51,7 @@ pub fn cmd_2_lost_is_told<T: Copy + PartialEq>(
     command.usable(timeout).err().is_none_or(|reason| implies(out == instead, told(reason)))
 }
 
-/// CMD-2, E2E-2: what stands for a lost request of the service brake.
+/// What stands for a lost request of the service brake: the one that `decide` keeps, or none.
 #[must_use]
 pub fn brake_instead(envelope: &Envelope) -> ServiceBrake {
     match envelope.brake.fallback {
