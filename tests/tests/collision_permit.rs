@@ -22,6 +22,17 @@ fn a_disagreement_is_reported_and_obliges_nothing() {
     assert!(!decision.status.faults.contains(Faults::TTC_DISAGREEMENT), "10 m/s at 27 m: both say severe enough");
 }
 
+/// MIT-8b: level 3 by T, and just what level 1 brakes with is needed: no disagreement; a centimetre farther it is less, and one.
+#[test]
+fn the_least_that_a_level_needs_is_exact() {
+    // 2 m/s, 1 m is to be left: 4/(2 · 2.00) = 1.00 m/s² at 3.00 m, T = 1.5 s.
+    for (distance, disagrees) in [(300, false), (301, true)] {
+        let (_, decision) = Bus::approaching(object(distance, 200));
+        assert_eq!(decision.status.level, Level::Three);
+        assert_eq!(decision.status.faults.contains(Faults::TTC_DISAGREEMENT), disagrees, "{distance}");
+    }
+}
+
 /// MIT-8b: where both opinions agree, near or far, severe or not, nothing is reported.
 #[test]
 fn where_both_opinions_agree_nothing_is_reported() {

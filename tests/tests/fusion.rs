@@ -356,6 +356,18 @@ fn each_takes_what_fits_best() {
 
 // What a match means.
 
+/// FUS-3a: between two that fit equally well their values decide, never their places: the slower one, the one with fewer updates.
+#[test]
+fn between_equal_fits_the_values_decide() {
+    let (slow, fast) = (once(Z12, 0, 100), once(Z12, 0, 200));
+    let often = RadarObject { updates: Count::new(255), ..slow };
+    for (taken, other) in [(slow, fast), (slow, often)] {
+        let camera = [seen(BOX, Class::Object)];
+        assert_eq!(classes(&[taken, other], &camera), [Some(Class::Object), None]);
+        assert_eq!(classes(&[other, taken], &camera), [None, Some(Class::Object)]);
+    }
+}
+
 /// FUS-3c: a ghost of one update obliges nothing and permits; the camera's box makes it an obstacle.
 #[test]
 fn a_ghost_obliges_nothing_until_the_camera_sees_it() {

@@ -90,9 +90,21 @@ fn each_contradiction_of_an_envelope_is_not_feasible() {
     let feasible = Bus::steering(kmh(10)).step().envelope;
     assert!(feasible.is_feasible());
     let refused = Err(Reason::SafeState);
-    let changes: [(&str, Contradict); 10] = [
+    let changes: [(&str, Contradict); 14] = [
         ("brake", |envelope| envelope.brake.floor.most = DecelMs2Q11::new(envelope.brake.cap.most.raw() + 1)),
         ("angle", |envelope| envelope.steering.angle_least = angle(envelope.steering.angle_most.raw() + 1)),
+        ("angle of rest below", |envelope| {
+            envelope.steering.angle_neutral = angle(envelope.steering.angle_least.raw() - 1);
+        }),
+        ("angle of rest above", |envelope| {
+            envelope.steering.angle_neutral = angle(envelope.steering.angle_most.raw() + 1);
+        }),
+        ("overlay of rest below", |envelope| {
+            envelope.steering.overlay_neutral = TorqueNmQ10::new(envelope.steering.overlay_least.raw() - 1);
+        }),
+        ("overlay of rest above", |envelope| {
+            envelope.steering.overlay_neutral = TorqueNmQ10::new(envelope.steering.overlay_most.raw() + 1);
+        }),
         ("weight", |envelope| envelope.steering.weight_most = percent(101)),
         ("weight order", |envelope| envelope.steering.weight_most = percent(envelope.steering.weight_least.raw() - 1)),
         ("apply refused", |envelope| {

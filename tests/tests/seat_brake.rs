@@ -135,6 +135,21 @@ fn below_2_kmh_the_leave_brake_holds_until_the_parking_brake_is_confirmed() {
     }
 }
 
+/// SEAT-3d: at the hold speed itself the table alone speaks, just below it the hold: told apart by a hold that is more than the table.
+#[test]
+fn the_hold_ends_at_its_speed() {
+    let config = Config { leave_hold: ms2(250), ..Config::DEFAULT };
+    let inputs = Bus::driving(kmh(30)).inputs;
+    let mut bus = Bus::with_config(&config, ResetCause::PowerOn, Some(Record::None), inputs);
+    bus.run_for(1_000);
+    bus.vacant();
+    assert!(in_leave(&bus.run_for(2_010)));
+    for (raw, hundredths) in [(511, 250), (512, 135)] {
+        bus.speed(kmh_q8(raw));
+        assert_eq!(bus.step().outputs.brake.total, ms2(hundredths), "{raw}");
+    }
+}
+
 /// SEAT-3e: unknown speed keeps the last demand, at least 1.35 m/s².
 #[test]
 fn with_unknown_speed_the_leave_brake_keeps_the_last_demand() {

@@ -16,7 +16,7 @@ so only shown when a run is at hand:
 The shipped drives are replayed and the scenarios drawn, unless --no-drives.
 
 Files of the folder: index.html (self-contained, open items first), evidence.json, trace.html and .json, inject.html, \
-requirements.sdoc (StrictDoc), needs.json (sphinx-needs), tests.xml (JUnit), sbom.cdx.json (CycloneDX), argument/, records/, \
+requirements.sdoc (StrictDoc), needs.json and needs.toml (sphinx-needs), tests.xml (JUnit), sbom.cdx.json (CycloneDX), argument/, records/, \
 drives/, manifest.sha256; and run.json, which alone differs between two runs.
 
 --check writes nothing and fails on a finding of the analysis, the argument or the traceability; on evidence that is not there; on a part \

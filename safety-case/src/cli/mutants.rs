@@ -11,13 +11,14 @@ supervisor-tests and supervisor-proofs run for each mutant, those first that cat
 program in which a mutant makes no difference where it stands is not run for it: it would run as it does without.
 Nothing but tests counts here; what the proofs catch is `supervise mistakes`.
 
-A test program that takes longer than 20 s, or does not pass without a mutant, is left out, and told. A mutant that no test
-notices survived; safety-case/analysis/mutants.toml may explain why it changes nothing. The record is
+A test program that takes longer than --longest, or does not pass without a mutant, is left out, and told. A mutant that no test
+notices survived, and is run again next time: the first time with the quick programs, then the survivors with the slow ones; safety-case/analysis/mutants.toml may explain why it changes nothing. The record is
 safety-case/records/mutants.json; it is stale as soon as a token of the shipped sources changed.
 
 Examples:
   supervise mutants                     all of them; goes on where a run was broken off
   supervise mutants --within 30         no further one after half an hour
+  supervise mutants --longest 60        with test programs that take up to a minute: for what survived the quick ones
   supervise mutants --shard 1/4         one part of four, on a machine of its own
   supervise mutants --check             what the record shows
 
@@ -36,10 +37,13 @@ pub struct Mutants {
     /// Begin no further mutant after so many minutes; the next run goes on
     #[arg(long, value_name = "MINUTES")]
     pub within: Option<u64>,
+    /// Leave out test programs that take longer without a mutant
+    #[arg(long, value_name = "SECONDS", default_value_t = 20)]
+    pub longest: u64,
     /// Run again what the record already has for the present sources
     #[arg(long)]
     pub again: bool,
     /// Run nothing: say what the record does not show on the present sources
-    #[arg(long, conflicts_with_all = ["shard", "within", "again"])]
+    #[arg(long, conflicts_with_all = ["shard", "within", "longest", "again"])]
     pub check: bool,
 }

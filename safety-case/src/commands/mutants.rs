@@ -25,6 +25,7 @@ pub(super) fn run(arguments: &Mutants) -> Outcome {
             jobs: arguments.jobs.unwrap_or_else(cores),
             again: arguments.again,
             within: arguments.within.map(|minutes| Duration::from_secs(minutes.saturating_mul(60))),
+            longest: Duration::from_secs(arguments.longest),
         };
         telling(|say| mutate(root, request, say))?;
     }

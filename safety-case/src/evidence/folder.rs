@@ -18,6 +18,8 @@ use crate::prove::sha256;
 
 /// The digests, in the form of `sha256sum --check`.
 pub const MANIFEST: &str = "manifest.sha256";
+/// What sphinx-needs has to be told of `needs.json`: its types and fields.
+const NEEDS: &str = include_str!("../../templates/needs.toml");
 /// What differs between two runs, and is not in the manifest.
 pub const RUN: &str = "run.json";
 /// Committed records that are copied, so that the folder stands alone.
@@ -73,6 +75,7 @@ pub fn files(root: &Path, collected: &Collected) -> Result<BTreeMap<String, Stri
     add("analysis.json", pretty(&serde_json::to_value(analysis)?));
     add("requirements.sdoc", strictdoc(analysis, trace));
     add("needs.json", pretty(&needs(analysis, trace, env!("CARGO_PKG_VERSION"))));
+    add("needs.toml", NEEDS.to_owned());
     add("tests.xml", junit(trace, collected.log.as_ref())?);
     if inventory.not_run.is_none() {
         add("sbom.cdx.json", sbom(inventory)?);

@@ -16,8 +16,6 @@ use crate::mistakes::Shard;
 use crate::prove::shipped;
 use crate::spread::as_it_comes;
 
-/// A test program that takes longer without a mutant does not run: every mutant that survives the others would wait for it.
-const LONGEST: Duration = Duration::from_secs(20);
 /// What a test program may take beside a multiple of what it takes without a mutant.
 const PATIENCE: Duration = Duration::from_secs(5);
 /// How often is looked whether it has ended.
@@ -36,6 +34,8 @@ pub struct Request {
     pub again: bool,
     /// No further mutant is begun after so long.
     pub within: Option<Duration>,
+    /// A test program that takes longer without a mutant does not run: every mutant that survives the others would wait for it.
+    pub longest: Duration,
 }
 
 /// A test program, and what is known of it.
@@ -87,21 +87,26 @@ impl Test {
 
 /// Runs the test programs without a mutant: how long each takes, and which mutants it meets. What does not pass then judges nothing, and
 /// is told.
-fn measured(programs: Vec<Program>, folder: &Path, say: &mut dyn FnMut(&str)) -> Result<Vec<Test>, ToolError> {
+fn measured(
+    programs: Vec<Program>,
+    longest: Duration,
+    folder: &Path,
+    say: &mut dyn FnMut(&str),
+) -> Result<Vec<Test>, ToolError> {
     let (mut all, seen) = (Vec::new(), folder.join("seen"));
     for program in programs {
         write(&seen, b"")?;
         let mut test = Test { program, takes: Duration::ZERO, caught: 0, meets: BTreeSet::new() };
         let began = Instant::now();
-        let mut passes = test.passes(("MUTANT", OsStr::new("0")), LONGEST)?;
+        let mut passes = test.passes(("MUTANT", OsStr::new("0")), longest)?;
         test.takes = began.elapsed();
         // To look at every mutant takes its time, too.
-        passes = passes && test.passes(("MUTANT_SEEN", seen.as_os_str()), LONGEST.saturating_mul(10))?;
+        passes = passes && test.passes(("MUTANT_SEEN", seen.as_os_str()), longest.saturating_mul(10))?;
         if passes {
             test.meets = read(&seen)?.lines().filter_map(|line| line.parse().ok()).collect();
             all.push(test);
         } else {
-            say(&format!("LEFT OUT: {} does not pass within {} s without a mutant", test.name(), LONGEST.as_secs()));
+            say(&format!("LEFT OUT: {} does not pass within {} s without a mutant", test.name(), longest.as_secs()));
         }
     }
     Ok(all)
@@ -133,21 +138,22 @@ pub fn run(root: &Path, request: Request, say: &mut dyn FnMut(&str)) -> Result<(
     let all = every(root)?;
     let target = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root.join("target"), |folder| root.join(folder));
     let built = built(root, &target.join("mutants"), &all, say)?;
-    let tests = measured(built.programs, &target.join("mutants"), say)?;
+    let tests = measured(built.programs, request.longest, &target.join("mutants"), say)?;
     let mut record = Record::load(root)?;
     let names = tests.iter().map(Test::name).collect();
     if record.sources != sources || request.again {
         record = Record::default();
     }
     record = Record { sources: sources.clone(), listed: all.len(), tests: names, ..record };
-    let mut queue = Vec::new();
+    // A survivor is tried again, after the others: there may be a new test.
+    let (mut queue, mut survivors) = (Vec::new(), Vec::new());
     for (number, listed) in request.shard.part(all) {
         let name = listed.name.clone();
-        // A survivor is tried again: there may be a new test.
         if built.inside.contains(&number) {
-            let is_done = |entry: &Entry| entry.name == name && entry.outcome != Outcome::Survived;
-            if !record.mutants.iter().any(is_done) {
-                queue.push((number, name));
+            match record.mutants.iter().find(|entry| entry.name == name).map(|entry| &entry.outcome) {
+                None => queue.push((number, name)),
+                Some(Outcome::Survived) => survivors.push((number, name)),
+                Some(Outcome::Caught { .. } | Outcome::Unviable | Outcome::LeftOut { .. }) => {}
             }
         } else {
             let why = "in a constant function, or beside a pattern that binds a name".to_owned();
@@ -155,6 +161,7 @@ pub fn run(root: &Path, request: Request, say: &mut dyn FnMut(&str)) -> Result<(
             record.put(Entry { name, outcome });
         }
     }
+    queue.append(&mut survivors);
     record.save(root)?;
     let (total, began) = (queue.len(), Instant::now());
     say(&format!("{total} to run against {} test programs, {} at a time", tests.len(), request.jobs));

@@ -189,6 +189,16 @@ fn exports(files: &BTreeMap<PathBuf, Vec<u8>>) -> Outcome {
         let links = need["links"].as_array().ok_or("no links")?;
         assert!(links.iter().all(|link| link.as_str().is_some_and(|link| needs.contains_key(link))), "{id}: {links:?}");
     }
+    // sphinx-needs is told of every type, and of every field that it does not have by itself.
+    let told: toml::Table = String::from_utf8_lossy(file("needs.toml")?).parse()?;
+    let types = told["needs"]["types"].as_array().ok_or("no types")?;
+    let fields = told["needs"]["fields"].as_table().ok_or("no fields")?;
+    let own = ["id", "type", "title", "content", "status", "tags", "links"];
+    for (id, need) in &needs {
+        assert!(types.iter().any(|one| one["directive"].as_str() == need["type"].as_str()), "{id}: {}", need["type"]);
+        let mut names = need.as_object().ok_or("no need")?.keys();
+        assert!(names.all(|name| own.contains(&name.as_str()) || fields.contains_key(name)), "{id}: {need}");
+    }
 
     let sdoc = String::from_utf8_lossy(file("requirements.sdoc")?).into_owned();
     assert_eq!(sdoc.lines().filter(|line| *line == "[REQUIREMENT]").count(), requirements);
