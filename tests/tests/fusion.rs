@@ -356,13 +356,15 @@ fn each_takes_what_fits_best() {
 
 // What a match means.
 
-/// FUS-3a: between two that fit equally well their values decide, never their places: the slower one, the one with fewer updates.
+/// FUS-3a: between two that fit equally well their values decide, never their places: the nearer one (both so near that they fill the
+/// picture), the slower one, the one with fewer updates.
 #[test]
 fn between_equal_fits_the_values_decide() {
+    let whole = PixelBox { left: 0, top: 0, width: 1_280, height: 720 };
     let (slow, fast) = (once(Z12, 0, 100), once(Z12, 0, 200));
     let often = RadarObject { updates: Count::new(255), ..slow };
-    for (taken, other) in [(slow, fast), (slow, often)] {
-        let camera = [seen(BOX, Class::Object)];
+    for (pixels, taken, other) in [(whole, once(10, 0, 200), once(20, 0, 100)), (BOX, slow, fast), (BOX, slow, often)] {
+        let camera = [seen(pixels, Class::Object)];
         assert_eq!(classes(&[taken, other], &camera), [Some(Class::Object), None]);
         assert_eq!(classes(&[other, taken], &camera), [None, Some(Class::Object)]);
     }

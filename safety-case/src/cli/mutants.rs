@@ -12,8 +12,9 @@ program in which a mutant makes no difference where it stands is not run for it:
 Nothing but tests counts here; what the proofs catch is `supervise mistakes`.
 
 A test program that takes longer than --longest, or does not pass without a mutant, is left out, and told. A mutant that no test
-notices survived, and is run again next time: the first time with the quick programs, then the survivors with the slow ones; safety-case/analysis/mutants.toml may explain why it changes nothing. The record is
-safety-case/records/mutants.json; it is stale as soon as a token of the shipped sources changed.
+notices survived; the next run tries it again, after those that have not run yet. safety-case/analysis/mutants.toml may
+explain why it changes nothing. The record is safety-case/records/mutants.json; it is stale as soon as a token of the shipped
+sources changed.
 
 Examples:
   supervise mutants                     all of them; goes on where a run was broken off

@@ -42,16 +42,17 @@ fn show(root: &Path) -> Outcome {
     let [caught, survived, unviable, left_out] = record.counts();
     print(format_args!("{:<42} {caught:>7} {survived:>9} {unviable:>9} {left_out:>9}\n\n", "all"))?;
     let mut findings = Vec::new();
-    let is_explained = |name: &str| explained.iter().find(|explained| explained.speaks_of(name));
     for name in record.survivors() {
-        match is_explained(name) {
+        match Explained::of(&explained, name, &record) {
             Some(explained) => print(format_args!("explained: {name}\n  {}\n", explained.reason))?,
             None => findings.push(format!("survived: {name}")),
         }
     }
     for explained in &explained {
-        if !record.survivors().any(|name| explained.speaks_of(name)) {
-            findings.push(format!("explained, but it does not survive: {}: {}", explained.file, explained.name));
+        let surviving = explained.surviving(&record);
+        if surviving != explained.times {
+            let Explained { file, name, times, .. } = explained;
+            findings.push(format!("{times} explained, {surviving} survive: {file}: {name}"));
         }
     }
     let run = record.mutants.len();

@@ -33,7 +33,11 @@ fn begin(name: &str) -> String {
 /// The oracle cannot be read.
 pub fn blocks(root: &Path, standings: &[Standing]) -> Result<Vec<Block>, ToolError> {
     let block = |name, table: String| Block { name, text: format!("{}\n{table}{END}", begin(name)) };
-    Ok(vec![block("attacks", attacks(standings, claims(root)?)), block("records", records(standings))])
+    Ok(vec![
+        block("attacks", attacks(standings, claims(root)?)),
+        block("records", records(standings)),
+        block("target", target(standings)),
+    ])
 }
 
 /// The text with every table in it replaced; and whether it has any.
@@ -136,7 +140,7 @@ fn attacks(standings: &[Standing], claims: usize) -> String {
                 get("named"),
                 get("surviving"),
                 get("drawn"),
-                get("drawn caught")
+                get("drawn_caught"),
             )
         }),
     );
@@ -161,6 +165,10 @@ fn attacks(standings: &[Standing], claims: usize) -> String {
         &state(of("fuzz"), "the committed corpus, in every `cargo test`; **no campaign is recorded**", fuzzed),
     );
     row(
+        "scenarios of the sources, of UN R131 as it is quoted, and of our own, in closed loop (`simulate --all`)",
+        &state(of("simulate"), "**not run**", scenarios),
+    );
+    row(
         "a correct main controller on a busy and noisy bus, and ordinary driving, simulated: is anybody disturbed? (`disturb`)",
         &state(of("disturb"), "**not run**", disturbed),
     );
@@ -174,6 +182,39 @@ fn fuzzed(standing: &Standing) -> String {
         sum(standing, ".inputs"),
         sum(standing, ".found"),
     )
+}
+
+fn scenarios(standing: &Standing) -> String {
+    let get = |name| standing.get(name).unwrap_or("?");
+    format!(
+        "of {} variants {} as demanded, {} known not to be, {} not as expected; not as demanded: {}",
+        get("variants"),
+        get("as_demanded"),
+        get("known_not_to"),
+        get("not_as_expected"),
+        standing
+            .open
+            .iter()
+            .map(|open| format!("`{}`", open.split(':').next().unwrap_or_default()))
+            .collect::<Vec<_>>()
+            .join(", "),
+    )
+}
+
+/// What QEMU shows of the target, and what of it is above its bar.
+fn target(standings: &[Standing]) -> String {
+    let standing = standings.iter().find(|standing| standing.name == "target");
+    let figures = standing.into_iter().flat_map(|standing| &standing.figures).map(|figure| {
+        let value = figure.value.parse().map_or_else(|_| figure.value.clone(), grouped);
+        format!("| {} | {value} |\n", figure.what)
+    });
+    let above = state(standing, "not run", |standing| match standing.open.as_slice() {
+        [] => "none".to_owned(),
+        open => open.join("; "),
+    });
+    let last = format!("| **bars of the design that are not met** | {above} |\n");
+    let head = "| on the target | what came of it |\n|---|---|\n".to_owned();
+    [head].into_iter().chain(figures).chain([last]).collect()
 }
 
 fn disturbed(standing: &Standing) -> String {

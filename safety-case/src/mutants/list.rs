@@ -4,6 +4,7 @@ use std::path::Path;
 
 use serde::Deserialize;
 
+use super::record::Record;
 use super::switch::Mutant;
 use crate::error::ToolError;
 use crate::mistakes::{Listed, listed};
@@ -28,8 +29,15 @@ pub struct Explained {
     pub name: String,
     /// Its file.
     pub file: String,
+    /// How many mutants of this name there are that survive: no more are explained.
+    #[serde(default = "one")]
+    pub times: usize,
     /// Why no test can notice it.
     pub reason: String,
+}
+
+const fn one() -> usize {
+    1
 }
 
 #[derive(Debug, Deserialize)]
@@ -55,9 +63,20 @@ impl Explained {
         read.map(|read| read.mutant).map_err(|error| ToolError::Form { path, message: error.to_string() })
     }
 
-    /// Whether it speaks of the mutant with this name.
+    /// Which of them explains that the mutant with this name survives: one that explains just as many as survive.
     #[must_use]
-    pub fn speaks_of(&self, name: &str) -> bool {
+    pub fn of<'a>(all: &'a [Self], name: &str, record: &Record) -> Option<&'a Self> {
+        all.iter().find(|one| one.speaks_of(name) && one.surviving(record) == one.times)
+    }
+
+    /// How many of those that it speaks of survive.
+    #[must_use]
+    pub fn surviving(&self, record: &Record) -> usize {
+        record.survivors().filter(|name| self.speaks_of(name)).count()
+    }
+
+    /// Whether it speaks of the mutant with this name.
+    fn speaks_of(&self, name: &str) -> bool {
         name.starts_with(&format!("{}:", self.file)) && name.ends_with(&format!(": {}", self.name))
     }
 }
@@ -91,13 +110,30 @@ pub fn placed(number: u32, listed: &Listed, text: &str) -> Option<Mutant> {
 #[cfg(test)]
 mod tests {
     use super::Explained;
+    use crate::mutants::record::{Entry, Outcome, Record};
 
     #[test]
     fn an_explanation_does_not_depend_on_the_line() {
-        let of = |file: &str, name: &str| Explained { name: name.into(), file: file.into(), reason: "r".into() };
+        let of =
+            |file: &str, name: &str| Explained { name: name.into(), file: file.into(), times: 1, reason: "r".into() };
         let name = "supervisor/core/src/boot.rs:57:53: replace != with == in Boot::advance";
         assert!(of("supervisor/core/src/boot.rs", "replace != with == in Boot::advance").speaks_of(name));
         assert!(!of("supervisor/core/src/boot.rs", "with == in Boot::advance").speaks_of(name));
         assert!(!of("supervisor/core/src/boot", "replace != with == in Boot::advance").speaks_of(name));
+    }
+
+    #[test]
+    fn it_explains_just_as_many_as_it_says() {
+        let mut record = Record::default();
+        let names = ["a.rs:1:1: replace < with <= in f", "a.rs:2:1: replace < with <= in f"];
+        let all = |times| {
+            vec![Explained { name: "replace < with <= in f".into(), file: "a.rs".into(), times, reason: "r".into() }]
+        };
+        for (survivors, name) in (1_usize..).zip(names) {
+            record.put(Entry { name: name.to_owned(), outcome: Outcome::Survived });
+            for times in 0..4 {
+                assert_eq!(Explained::of(&all(times), names[0], &record).is_some(), times == survivors, "{times}");
+            }
+        }
     }
 }

@@ -123,7 +123,7 @@ fn named_mistakes(shared: &Shared<'_>) -> Outcome {
     let drawn: Vec<_> = record.drawn.mistakes.iter().filter(|entry| entry.outcome.is_mistake()).collect();
     standing.figure("drawn", drawn.len(), "drawn ones that ran");
     let caught = drawn.iter().filter(|entry| entry.outcome.is_caught()).count();
-    standing.figure("drawn caught", caught, "of these caught by a proof alone");
+    standing.figure("drawn_caught", caught, "of these caught by a proof alone");
     Ok(standing)
 }
 
@@ -287,7 +287,7 @@ fn mutated(shared: &Shared<'_>) -> Outcome {
     let [caught, survived, unviable, left_out] = record.counts();
     let explained = mutants::Explained::all(root)?;
     let unexplained: Vec<&str> =
-        record.survivors().filter(|name| !explained.iter().any(|entry| entry.speaks_of(name))).collect();
+        record.survivors().filter(|name| mutants::Explained::of(&explained, name, &record).is_none()).collect();
     standing.figure("listed", record.listed, "mutants listed");
     standing.figure("run", record.mutants.len(), "with an outcome");
     standing.figure("caught", caught, "caught by a test");
