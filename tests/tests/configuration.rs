@@ -163,6 +163,63 @@ fn broken_relations_are_refused() {
     assert!(default.timeout_50 > default.cycle_greatest, "time-out > period");
 }
 
+/// SELF-4d: a camera that is turned by more than 45°, or a row of its rotation that is not of length 1, is refused; each alone.
+#[test]
+fn a_camera_that_does_not_look_ahead_is_refused() {
+    // Rows to the right, down and ahead, with the element that must be long and one that fills the row up to length 1.
+    let with = |row: usize, elements: [i16; 3]| {
+        let Row(mut rotation) = Config::DEFAULT.camera_rotation;
+        for (place, element) in elements.into_iter().enumerate() {
+            rotation[row * 3 + place] = RotationQ14::new(element);
+        }
+        Config { camera_rotation: Row(rotation), ..Config::DEFAULT }
+    };
+    let rows = |long: i16, other: i16| [[other, -long, 0], [0, other, -long], [long, other, 0]];
+    let told = Some("camera_rotation looks ahead, upright, its rows of length 1");
+    for (row, name) in ["to the right", "down", "ahead"].into_iter().enumerate() {
+        assert_eq!(with(row, rows(11_585, 11_585)[row]).broken_relation(), None, "{name}: turned by 45°");
+        assert_eq!(with(row, rows(11_584, 11_587)[row]).broken_relation(), told, "{name}: turned by more");
+        assert_eq!(with(row, rows(-16_384, 0)[row]).broken_relation(), told, "{name}: the other way");
+        // Squares of 2^28 ± 1 %.
+        assert_eq!(with(row, rows(16_302, 0)[row]).broken_relation(), None, "{name}: shrinks by half a per cent");
+        assert_eq!(with(row, rows(16_301, 0)[row]).broken_relation(), told, "{name}: shrinks by more");
+        assert_eq!(with(row, rows(16_384, 1_638)[row]).broken_relation(), None, "{name}: stretches by half a per cent");
+        assert_eq!(with(row, rows(16_384, 1_639)[row]).broken_relation(), told, "{name}: stretches by more");
+    }
+}
+
+/// SELF-4d: what was refused is told with its name.
+#[test]
+fn a_refusal_says_what_it_refuses() {
+    for (error, told) in [
+        (ConfigError::Length(7), "7 bytes"),
+        (ConfigError::Header, "version"),
+        (ConfigError::Crc, "CRC"),
+        (ConfigError::Word, "no value"),
+        (ConfigError::Range("mild"), "mild is out of range"),
+        (ConfigError::Relation("a <= b"), "does not hold: a <= b"),
+    ] {
+        assert!(error.to_string().contains(told), "{error}");
+    }
+}
+
+/// SELF-4e: the digest of the configuration begins with all bits set: memory that was cleared, digest and all, does not agree with itself.
+#[test]
+fn the_digest_of_cleared_memory_is_not_zero() {
+    let fold = |words: &[u32]| words.iter().fold(u32::MAX, |digest, word| digest.rotate_left(5) ^ word);
+    let Ok(sealed) = Sealed::from_default() else { unreachable!("the table is valid") };
+    let mut words = Vec::new();
+    Config::DEFAULT.write(&mut |word| words.push(word));
+    let text = format!("{sealed:?}");
+    assert!(text.ends_with(&format!("digest: {} }}", fold(&words))), "{text}");
+    words.fill(0);
+    assert_ne!(fold(&words), 0);
+    for bit in 0..32 {
+        let flipped = sealed.with_flipped_digest(bit);
+        assert_eq!((flipped.intact(), flipped.with_flipped_digest(bit)), (None, sealed), "bit {bit}");
+    }
+}
+
 /// SELF-4e, SELF-5b: a configuration that changes while it is used is the safe state, latched.
 #[test]
 fn a_configuration_that_changes_is_the_safe_state() {

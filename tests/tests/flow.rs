@@ -97,6 +97,19 @@ fn one_mistake() {
     }
 }
 
+/// SELF-6b: a wrong signature changes the answer to every question by the same bits: none is right by what the table happens to hold.
+#[test]
+fn a_wrong_signature_changes_every_answer_alike() {
+    for count in 0..8 {
+        let flow = run(&ORDER[..count]);
+        let changed =
+            |(question, right): (u8, [u8; 4])| u32::from_le_bytes(flow.answer(question)) ^ u32::from_le_bytes(right);
+        let all: std::collections::BTreeSet<u32> = questions().map(changed).collect();
+        assert_eq!(all.len(), 1, "only {count} stages: {all:?}");
+        assert!(!all.contains(&0));
+    }
+}
+
 /// Every sequence of up to `left` more stages; how many there were, and how many of them have the right signature.
 fn explore(flow: Flow, left: u32, visit: &mut impl FnMut(Flow)) {
     visit(flow);

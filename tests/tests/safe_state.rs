@@ -52,6 +52,51 @@ fn a_word_and_its_complement_flipped_together_never_panic() {
     }
 }
 
+/// SELF-5a: the same bit in two words: what one flip does to the check, the other does not undo.
+#[test]
+fn two_flips_do_not_hide_each_other() {
+    let image = StateImage::encode(&State::INITIAL);
+    for index in 0..STATE_WORDS {
+        for other in (0..2 * STATE_WORDS).filter(|other| other % STATE_WORDS != index) {
+            let flipped = image.with_flipped_bit(index, 7).with_flipped_bit(other, 7);
+            assert!(!flipped.intact(), "{index} and {other}");
+        }
+    }
+}
+
+/// SELF-5a: a flip changes the one bit, set or not, and a second one brings it back; behind the digest there is none.
+#[test]
+fn a_flip_is_its_own_way_back() {
+    let image = StateImage::encode(&State::boot(ResetCause::PowerOn, None));
+    for index in 0..=2 * STATE_WORDS {
+        for bit in 0..32 {
+            let flipped = image.with_flipped_bit(index, bit);
+            assert_ne!(flipped, image, "word {index} bit {bit}");
+            assert_eq!(flipped.with_flipped_bit(index, bit), image, "word {index} bit {bit}");
+            assert_eq!(flipped.intact(), index == 2 * STATE_WORDS, "the digest is asked only where the copies differ");
+        }
+    }
+    assert_eq!(image.with_flipped_bit(2 * STATE_WORDS + 1, 0), image);
+}
+
+/// SELF-5c: memory that was cleared is no state: neither of its copies is called whole.
+#[test]
+fn cleared_memory_is_no_state() {
+    let state = State::INITIAL;
+    let mut words = Vec::new();
+    state.write(&mut |word| words.push(word));
+    let digest = words.iter().fold(u32::MAX, |digest, word| digest.rotate_left(5) ^ word);
+    let complements: Vec<u32> = words.iter().map(|word| !word).collect();
+    let all = words.into_iter().chain(complements).chain([digest]);
+    let set = all
+        .enumerate()
+        .flat_map(|(index, word)| (0..32).filter(move |bit| word >> bit & 1 == 1).map(move |bit| (index, bit)));
+    let cleared = set.fold(StateImage::encode(&state), |image, (index, bit)| image.with_flipped_bit(index, bit));
+    let text = format!("{cleared:?}");
+    assert!(!text.contains(|digit: char| ('1'..='9').contains(&digit)), "nothing is left: {text}");
+    assert_eq!((cleared.decode::<State>(), cleared.recover::<State>()), (None, None));
+}
+
 /// SELF-5b: the safe state stays, whatever is read or asked for afterwards, over a key cycle too (SELF-7 clears it).
 #[test]
 fn the_safe_state_is_latched() {

@@ -118,8 +118,12 @@ fn several_in_one_cycle() {
     let mut all = Channels::NONE;
     for (message, channel) in commands() {
         let _ = node.watch(0, &Frame::new(message.id(), 0));
+        assert!(only(channel).contains(channel));
         all = all.with(channel);
     }
+    let inside = |channel: &Channel| commands().any(|(_, commanded)| commanded == *channel);
+    assert!(Channel::ALL.iter().all(|channel| all.contains(*channel) == inside(channel)));
+    assert!(Channel::ALL.iter().all(|channel| !Channels::NONE.contains(*channel)));
     assert_eq!(node.sample(0), (all, false));
 }
 

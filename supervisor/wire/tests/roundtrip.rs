@@ -223,6 +223,29 @@ fn spread() {
     assert!(most <= Message::ALL.iter().filter(|message| !message.is_command()).count() / 2, "{most}");
 }
 
+/// CMD-3e: after a pause of a whole period the next frame comes a period later, not at once; after one that is a millisecond shorter
+/// the period runs on from when the frame was due.
+#[test]
+fn pauses() {
+    let message = Message::DriveStatus;
+    let period = message.period().raw();
+    for (late, next) in [(period - 1, 1), (period, period), (period + 1, period)] {
+        let mut sender = Sender::new();
+        let mut is_sent = |now: u32| {
+            let mut sent = false;
+            sender
+                .encode_inputs(ms(now), &Inputs::NEVER, &Scene::clear(), &mut |frame| sent |= frame.id == message.id());
+            sent
+        };
+        // Looked at every millisecond it is sent when it is due.
+        let last = (0..3 * period).filter(|now| is_sent(*now)).last().unwrap();
+        // Nobody calls until the next one is late.
+        let resumed = last + period + late;
+        assert!(is_sent(resumed));
+        assert_eq!((1..2 * period).find(|later| is_sent(resumed + later)), Some(next), "late by {late}");
+    }
+}
+
 /// RXN-1a: a change of an output is sent in the same cycle, all frames of its channel and no other; once.
 #[test]
 fn changes() {
