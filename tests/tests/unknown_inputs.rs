@@ -234,3 +234,17 @@ fn every_cell_behaves_as_the_table_says() {
     }
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
+
+/// CMD-4a: every group has its own row in the code: unknown loads restrict the contactors and touch nothing else, an unknown
+/// switch of the parking brake ends nothing but what begins by it.
+#[test]
+fn each_group_has_its_own_row() {
+    let only = |group, channel, cell| {
+        for other in Channel::ALL {
+            let expected = if *other == channel { cell } else { supervisor::Meaning::Unaffected };
+            assert_eq!(supervisor::meaning(group, *other), expected, "{group:?} {other:?}");
+        }
+    };
+    only(supervisor::Group::Loads, Channel::Contactors, supervisor::Meaning::Refused);
+    only(supervisor::Group::ParkingSwitch, Channel::ParkingBrake, supervisor::Meaning::Persists);
+}

@@ -7,24 +7,26 @@ use super::part;
 pub(super) const ABOUT: &str = "\
 Tests the tests: runs them once for every mutant that cargo-mutants lists of the shipped crates (an operator, a guard, a body,
 a field changed). All mutants are built once, each behind a switch, into target/mutants; then the test programs of the packages
-supervisor-tests and supervisor-proofs run for each mutant, those first that catch most in the least time, until one fails. A
-program in which a mutant makes no difference where it stands is not run for it: it would run as it does without.
+supervisor-tests, supervisor-proofs, supervisor-wire and supervisor-observe run for each mutant, those first that catch most in
+the least time, until one fails. A program in which a mutant makes no difference where it stands is not run for it: it would run
+as it does without. The few mutants that cannot be switched are built alone.
 Nothing but tests counts here; what the proofs catch is `supervise mistakes`.
 
 A test program that takes longer than --longest, or does not pass without a mutant, is left out, and told. A mutant that no test
 notices survived; the next run tries it again, after those that have not run yet. safety-case/analysis/mutants.toml may
-explain why it changes nothing. The record is safety-case/records/mutants.json; it is stale as soon as a token of the shipped
-sources changed.
+explain why it changes nothing, with a harness that --prove has Kani decide. The record is safety-case/records/mutants.json; it
+is stale as soon as a token of the shipped sources changed.
 
 Examples:
   supervise mutants                     all of them; goes on where a run was broken off
   supervise mutants --within 30         no further one after half an hour
   supervise mutants --longest 60        with test programs that take up to a minute: for what survived the quick ones
+  supervise mutants --prove             have Kani prove of the explained ones that they change nothing
   supervise mutants --shard 1/4         one part of four, on a machine of its own
   supervise mutants --check             what the record shows
 
-Exit codes: 0 every mutant is caught or its survival explained; 1 one is not, or was not run, or the record is stale;
-2 something cannot be read or built; 4 cargo mutants is not here, nothing was run.";
+Exit codes: 0 every mutant is caught, or its survival proved or explained; 1 one is not, or was not run, or the record is stale;
+2 something cannot be read or built; 4 cargo mutants (for --prove: cargo kani) is not here, nothing was run.";
 
 /// Arguments of `mutants`.
 #[derive(Debug, Args)]
@@ -44,7 +46,10 @@ pub struct Mutants {
     /// Run again what the record already has for the present sources
     #[arg(long)]
     pub again: bool,
+    /// Prove with Kani that what survived and has a proof in its explanation changes nothing
+    #[arg(long, conflicts_with_all = ["shard", "jobs", "within", "longest", "again"])]
+    pub prove: bool,
     /// Run nothing: say what the record does not show on the present sources
-    #[arg(long, conflicts_with_all = ["shard", "within", "longest", "again"])]
+    #[arg(long, conflicts_with_all = ["shard", "within", "longest", "again", "prove"])]
     pub check: bool,
 }

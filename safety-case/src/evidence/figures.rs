@@ -149,14 +149,14 @@ fn attacks(standings: &[Standing], claims: usize) -> String {
         &state(of("mutants"), "**no record yet**: nothing is claimed", |standing| {
             let get = |name| get(standing, name);
             format!(
-                "of {} listed {} have an outcome: {} caught, {} survived ({} with a reason why nothing changes), {} do not compile, {} can not be switched and were not tried",
+                "of {} listed {} have an outcome: {} caught, {} proved by Kani to change nothing, {} survived ({} with a reason why nothing changes), {} do not compile",
                 get("listed"),
                 get("run"),
                 get("caught"),
+                get("equal"),
                 get("survived"),
                 get("explained"),
                 get("unviable"),
-                get("left_out"),
             )
         }),
     );

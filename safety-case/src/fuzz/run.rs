@@ -13,6 +13,9 @@ use super::record::Target;
 use crate::error::{ToolError, file};
 use crate::spread::as_it_comes;
 
+/// Targets whose bytes are text.
+const PARSERS: [&str; 2] = ["candump_log", "dbc_map"];
+
 /// What to run.
 #[derive(Clone, Debug)]
 pub struct Request {
@@ -34,12 +37,17 @@ pub fn available() -> bool {
     silent(Command::new("cargo").args(["+nightly", "fuzz", "--version"])).is_ok_and(|status| status.success())
 }
 
-/// `cargo fuzz` on optimised targets without a sanitizer of memory: what is fuzzed has no `unsafe`, and a sanitizer
-/// costs most of the speed.
-fn cargo_fuzz(root: &Path, command: &str, target: Option<&str>) -> Command {
+/// `cargo fuzz` on an optimised target without a sanitizer of memory: what is fuzzed has no `unsafe`, and a sanitizer costs most of the
+/// speed. So would looking at every comparison of a target that steps: its bytes are choices and never stand in a comparison. A
+/// parser compares its bytes with words.
+fn cargo_fuzz(root: &Path, command: &str, target: &str) -> Command {
     let mut cargo = Command::new("cargo");
     cargo.current_dir(root.join("fuzz")).args(["+nightly", "fuzz", command, "--release", "--sanitizer", "none"]);
-    cargo.args(target).stdin(Stdio::null());
+    if !PARSERS.contains(&target) {
+        // Other flags would build the same files again each time, so they have a folder of their own.
+        cargo.args(["--no-trace-compares", "--target-dir", "target/choices"]);
+    }
+    cargo.arg(target).stdin(Stdio::null());
     cargo
 }
 
@@ -49,10 +57,12 @@ fn cargo_fuzz(root: &Path, command: &str, target: Option<&str>) -> Command {
 /// The targets do not compile, cargo-fuzz does not start, or a file cannot be read or written.
 pub fn run(root: &Path, request: &Request, say: &mut dyn FnMut(&str)) -> Result<Vec<Target>, ToolError> {
     say("building the targets, some minutes");
-    let built = cargo_fuzz(root, "build", None).output().map_err(ToolError::start("cargo"))?;
-    if !built.status.success() {
-        let text = String::from_utf8_lossy(&built.stderr);
-        return Err(ToolError::Arguments(format!("the fuzz targets do not compile:\n{text}")));
+    for target in &request.targets {
+        let built = cargo_fuzz(root, "build", target).output().map_err(ToolError::start("cargo"))?;
+        if !built.status.success() {
+            let text = String::from_utf8_lossy(&built.stderr);
+            return Err(ToolError::Arguments(format!("{target} does not compile:\n{text}")));
+        }
     }
     let work: Vec<(&str, Mutex<Heard>)> =
         request.targets.iter().map(|name| (name.as_str(), Mutex::default())).collect();
@@ -118,7 +128,7 @@ fn fuzz(root: &Path, target: &str, request: &Request, heard: &Mutex<Heard>) -> R
     }
     let log = grown.join(format!("{target}.log"));
     let mut kept = fs::File::create(&log).map_err(|error| file(&log, error))?;
-    let mut command = cargo_fuzz(root, "run", Some(target));
+    let mut command = cargo_fuzz(root, "run", target);
     // What it finds new goes to the first folder; the committed corpus is only read.
     command.arg(grown.join(target)).arg(root.join("fuzz/corpus").join(target)).arg("--");
     command.arg(format!("-max_total_time={}", request.seconds)).arg(format!("-seed={}", request.seed));
@@ -170,7 +180,7 @@ fn keep(root: &Path, target: &str, artifact: &Path) -> Result<(), ToolError> {
     };
     let before = minimized();
     // Where it cannot be made smaller it stays as it is.
-    let _ended = cargo_fuzz(root, "tmin", Some(target)).arg(artifact).args(["--runs", "10000"]).output();
+    let _ended = cargo_fuzz(root, "tmin", target).arg(artifact).args(["--runs", "10000"]).output();
     let size = |path: &PathBuf| fs::metadata(path).map_or(u64::MAX, |data| data.len());
     let smallest = minimized().difference(&before).min_by_key(|path| size(path)).cloned();
     let name = artifact.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();

@@ -31,6 +31,8 @@ pub struct Listed {
     pub name: String,
     /// The source file.
     pub file: String,
+    /// The package of the file.
+    pub package: String,
     replacement: String,
     genre: String,
     span: Span,
@@ -40,6 +42,7 @@ pub struct Listed {
 #[derive(Clone, Debug, Deserialize)]
 struct Function {
     function_name: String,
+    span: Option<Span>,
 }
 
 impl Listed {
@@ -73,6 +76,13 @@ impl Listed {
     #[must_use]
     pub fn place(&self, text: &str) -> Option<Range<usize>> {
         Some(offset(text, self.span.start)?..offset(text, self.span.end)?)
+    }
+
+    /// Where the function stands that it is in, in bytes.
+    #[must_use]
+    pub fn extent(&self, text: &str) -> Option<Range<usize>> {
+        let span = self.function.as_ref()?.span?;
+        Some(offset(text, span.start)?..offset(text, span.end)?)
     }
 
     /// The file with the mistake in it.
@@ -139,7 +149,7 @@ mod tests {
         let place = Place { line: 1, column: 1 };
         let span = Span { start: place, end: place };
         let (file, replacement, genre) = Default::default();
-        Listed { name: name.to_string(), file, replacement, genre, span, function: None }
+        Listed { name: name.to_string(), file, package: String::new(), replacement, genre, span, function: None }
     }
 
     fn names(seed: u64) -> Vec<String> {

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use super::list::{PACKAGES, placed};
-use super::switch::{CRATE, Mutant, Switched, switched};
+use super::switch::{CRATE, Genre, Mutant, Switched, switched};
 use crate::copy::{Copy, Program, WITH_TESTS, cargo, errors, programs, with_dependency};
 use crate::error::{ToolError, form, read};
 use crate::mistakes::Listed;
@@ -12,7 +12,7 @@ use crate::mistakes::Listed;
 /// So often is what the compiler refuses taken out.
 const ROUNDS: usize = 60;
 /// Optimised, because the tests run often; with the checks that they rely on.
-const PROFILE: [(&str, &str); 4] = [
+pub(super) const PROFILE: [(&str, &str); 4] = [
     ("CARGO_PROFILE_RELEASE_OPT_LEVEL", "1"),
     ("CARGO_PROFILE_RELEASE_LTO", "off"),
     ("CARGO_PROFILE_RELEASE_DEBUG", "0"),
@@ -20,12 +20,15 @@ const PROFILE: [(&str, &str); 4] = [
 ];
 const MANIFEST: &str = "[package]\nname = \"mutant_switch\"\nversion = \"0.0.0\"\nedition = \"2024\"\npublish = false\n\n[lib]\npath = \"lib.rs\"\n";
 
+/// The packages whose tests run: those of the step, and of the shipped crates that have tests of their own.
+const TESTED: [&str; 4] = ["supervisor-tests", "supervisor-proofs", "supervisor-wire", "supervisor-observe"];
+
 /// A built copy.
 #[derive(Debug)]
 pub struct Built {
     /// The mutants that are in it.
     pub inside: BTreeSet<u32>,
-    /// Those that the compiler refuses as such.
+    /// Those that the compiler refuses as such. One that is in neither set cannot be switched.
     pub unviable: BTreeSet<u32>,
     /// Its test programs.
     pub programs: Vec<Program>,
@@ -72,10 +75,11 @@ fn missed(message: &str) -> Option<String> {
 pub fn built(root: &Path, folder: &Path, all: &[(u32, Listed)], say: &mut dyn FnMut(&str)) -> Result<Built, ToolError> {
     let copy = Copy::of(&WITH_TESTS, root, folder)?;
     let mut files = files(root, all)?;
-    let (mut constant, mut unviable) = (BTreeSet::new(), BTreeSet::new());
+    let (mut constant, mut unviable, mut refused) = (BTreeSet::new(), BTreeSet::new(), BTreeSet::new());
     let mut check = vec!["check", "--release", "--keep-going", "--all-features", "-p", "supervisor-report"];
     check.extend(PACKAGES.iter().flat_map(|(package, _)| ["-p", package]));
-    let with_tests = ["test", "--release", "--no-run", "-p", "supervisor-tests", "-p", "supervisor-proofs"];
+    let mut with_tests = vec!["test", "--release", "--no-run"];
+    with_tests.extend(TESTED.iter().flat_map(|package| ["-p", package]));
     let mut changed = with_switch(root)?;
     for round in 1..=ROUNDS {
         let mut present: BTreeMap<&String, Switched> = BTreeMap::new();
@@ -96,7 +100,7 @@ pub fn built(root: &Path, folder: &Path, all: &[(u32, Listed)], say: &mut dyn Fn
             say(&format!("{} of {} mutants are switched, {} do not compile", inside.len(), all.len(), unviable.len()));
             return Ok(Built { inside, unviable, programs: programs(&said) });
         }
-        let before = (constant.len(), unviable.len());
+        let before = (constant.len(), unviable.len(), refused.len());
         let mut unknown = None;
         for message in errors(&said).filter(|message| !message.spans.is_empty()) {
             let at = message.spans.iter().find_map(|span| {
@@ -105,16 +109,19 @@ pub fn built(root: &Path, folder: &Path, all: &[(u32, Listed)], say: &mut dyn Fn
             });
             match (missed(&message.text), at) {
                 (Some(name), _) => drop(constant.insert(name)),
-                (None, Some(number)) => drop(unviable.insert(number)),
+                (None, Some(number)) => drop(refused.insert(number)),
                 (None, None) => unknown.clone_from(&message.rendered),
             }
         }
-        say(&format!("round {round}: {} do not compile, {} functions stay constant", unviable.len(), constant.len()));
-        if (constant.len(), unviable.len()) == before {
-            return Err(ToolError::Compile(unknown.unwrap_or(rest)));
-        }
         for (_, mutants) in files.values_mut() {
-            mutants.retain(|mutant| !unviable.contains(&mutant.number));
+            // A value for a body stands behind its switch as it would stand there alone; of others it may be the switch that is refused.
+            let value = |mutant: &&Mutant| mutant.genre == Genre::Body && refused.contains(&mutant.number);
+            unviable.extend(mutants.iter().filter(value).map(|mutant| mutant.number));
+            mutants.retain(|mutant| !unviable.contains(&mutant.number) && !refused.contains(&mutant.number));
+        }
+        say(&format!("round {round}: {} do not compile, {} functions stay constant", unviable.len(), constant.len()));
+        if (constant.len(), unviable.len(), refused.len()) == before {
+            return Err(ToolError::Compile(unknown.unwrap_or(rest)));
         }
     }
     Err(ToolError::Compile(format!("not after {ROUNDS} rounds")))

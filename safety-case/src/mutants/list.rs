@@ -8,6 +8,7 @@ use super::record::Record;
 use super::switch::Mutant;
 use crate::error::ToolError;
 use crate::mistakes::{Listed, listed};
+use crate::prove::sha256;
 
 /// The crates that are mutated: what decides first, then what sees, speaks and observes, and the vocabulary. (`report` only tells.)
 pub const PACKAGES: [(&str, &str); 5] = [
@@ -17,6 +18,9 @@ pub const PACKAGES: [(&str, &str); 5] = [
     ("supervisor-observe", "supervisor/observe"),
     ("supervisor-terms", "supervisor/terms"),
 ];
+
+/// Shows single parts to the proofs; no vehicle is built with it.
+const NOT_SHIPPED: &str = "supervisor/wire/src/inspect.rs";
 
 /// Where the explanations stand.
 const EXPLAINED: &str = "safety-case/analysis/mutants.toml";
@@ -34,6 +38,8 @@ pub struct Explained {
     pub times: usize,
     /// Why no test can notice it.
     pub reason: String,
+    /// A Kani harness `changes_nothing` that compares the function with the mutated one, which has `_mutated` behind its name.
+    pub proof: Option<String>,
 }
 
 const fn one() -> usize {
@@ -45,6 +51,25 @@ const fn one() -> usize {
 struct Explanations {
     #[serde(default)]
     mutant: Vec<Explained>,
+}
+
+/// What does not hold of the explanations on this record, in words.
+#[must_use]
+pub fn findings(all: &[Explained], record: &Record) -> Vec<String> {
+    let mut findings = Vec::new();
+    for one in all {
+        let (Explained { file, name, times, .. }, surviving) = (one, one.surviving(record));
+        if surviving != *times {
+            findings.push(format!("{times} explained, {surviving} survive: {file}: {name}"));
+        }
+    }
+    for (name, proof) in record.equals() {
+        let own = all.iter().filter(|one| one.speaks_of(name)).filter_map(|one| one.proof.as_ref());
+        if !own.map(|text| sha256(text.as_bytes())).any(|digest| digest == proof) {
+            findings.push(format!("proved to change nothing by a proof that has changed since: {name}"));
+        }
+    }
+    findings
 }
 
 impl Explained {
@@ -69,14 +94,16 @@ impl Explained {
         all.iter().find(|one| one.speaks_of(name) && one.surviving(record) == one.times)
     }
 
-    /// How many of those that it speaks of survive.
+    /// How many of those that it speaks of no test notices.
     #[must_use]
     pub fn surviving(&self, record: &Record) -> usize {
-        record.survivors().filter(|name| self.speaks_of(name)).count()
+        let equals = record.equals().map(|(name, _)| name);
+        record.survivors().chain(equals).filter(|name| self.speaks_of(name)).count()
     }
 
     /// Whether it speaks of the mutant with this name.
-    fn speaks_of(&self, name: &str) -> bool {
+    #[must_use]
+    pub fn speaks_of(&self, name: &str) -> bool {
         name.starts_with(&format!("{}:", self.file)) && name.ends_with(&format!(": {}", self.name))
     }
 }
@@ -88,7 +115,7 @@ impl Explained {
 pub fn every(root: &Path) -> Result<Vec<(u32, Listed)>, ToolError> {
     let mut all = Vec::new();
     for (package, _) in PACKAGES {
-        all.extend(listed(root, package)?);
+        all.extend(listed(root, package)?.into_iter().filter(|mutant| mutant.file != NOT_SHIPPED));
     }
     Ok((1..).zip(all).collect())
 }
@@ -114,8 +141,13 @@ mod tests {
 
     #[test]
     fn an_explanation_does_not_depend_on_the_line() {
-        let of =
-            |file: &str, name: &str| Explained { name: name.into(), file: file.into(), times: 1, reason: "r".into() };
+        let of = |file: &str, name: &str| Explained {
+            name: name.into(),
+            file: file.into(),
+            times: 1,
+            reason: "r".into(),
+            proof: None,
+        };
         let name = "supervisor/core/src/boot.rs:57:53: replace != with == in Boot::advance";
         assert!(of("supervisor/core/src/boot.rs", "replace != with == in Boot::advance").speaks_of(name));
         assert!(!of("supervisor/core/src/boot.rs", "with == in Boot::advance").speaks_of(name));
@@ -127,7 +159,13 @@ mod tests {
         let mut record = Record::default();
         let names = ["a.rs:1:1: replace < with <= in f", "a.rs:2:1: replace < with <= in f"];
         let all = |times| {
-            vec![Explained { name: "replace < with <= in f".into(), file: "a.rs".into(), times, reason: "r".into() }]
+            vec![Explained {
+                name: "replace < with <= in f".into(),
+                file: "a.rs".into(),
+                times,
+                reason: "r".into(),
+                proof: None,
+            }]
         };
         for (survivors, name) in (1_usize..).zip(names) {
             record.put(Entry { name: name.to_owned(), outcome: Outcome::Survived });

@@ -21,13 +21,15 @@ pub enum Outcome {
     },
     /// Every test passed.
     Survived,
+    /// Every test passed, and a proof shows that it changes nothing.
+    Equal {
+        /// Digest of the proof in the explanation.
+        proof: String,
+        /// The version of Kani.
+        by: String,
+    },
     /// It does not compile, so it is no mutant.
     Unviable,
-    /// It cannot be switched: not tried.
-    LeftOut {
-        /// Why.
-        why: String,
-    },
 }
 
 /// A mutant that ran.
@@ -102,29 +104,37 @@ impl Record {
         }
     }
 
-    /// How many came to each end: caught, survived, unviable, left out.
+    /// How many came to each end: caught, survived, proved to change nothing, unviable.
     #[must_use]
     pub fn counts(&self) -> [usize; 4] {
         let mut counts = [0_usize; 4];
-        let [caught, survived, unviable, left_out] = &mut counts;
+        let [caught, survived, equal, unviable] = &mut counts;
         for entry in &self.mutants {
             let count = match entry.outcome {
                 Outcome::Caught { .. } => &mut *caught,
                 Outcome::Survived => &mut *survived,
+                Outcome::Equal { .. } => &mut *equal,
                 Outcome::Unviable => &mut *unviable,
-                Outcome::LeftOut { .. } => &mut *left_out,
             };
             *count = count.saturating_add(1);
         }
         counts
     }
 
-    /// The mutants that survived.
+    /// The mutants that survived, and of which no proof shows that they change nothing.
     pub fn survivors(&self) -> impl Iterator<Item = &str> {
         self.mutants.iter().filter(|entry| entry.outcome == Outcome::Survived).map(|entry| entry.name.as_str())
     }
 
-    /// How many each file has: caught, survived, unviable, left out.
+    /// The mutants that a proof shows to change nothing, with the digest of the proof.
+    pub fn equals(&self) -> impl Iterator<Item = (&str, &str)> {
+        self.mutants.iter().filter_map(|entry| match &entry.outcome {
+            Outcome::Equal { proof, .. } => Some((entry.name.as_str(), proof.as_str())),
+            Outcome::Caught { .. } | Outcome::Survived | Outcome::Unviable => None,
+        })
+    }
+
+    /// How many each file has: caught, survived, proved to change nothing, unviable.
     #[must_use]
     pub fn by_file(&self) -> BTreeMap<&str, [usize; 4]> {
         let mut files: BTreeMap<&str, Self> = BTreeMap::new();
@@ -146,7 +156,7 @@ mod tests {
         let mut record = Record { sources: "s".into(), listed: 3, tests: vec!["t".into()], mutants: Vec::new() };
         record.put(entry("b.rs:1:1: x", Outcome::Survived));
         record.put(entry("a.rs:1:1: x", Outcome::Caught { by: "t".into() }));
-        record.put(entry("b.rs:1:1: x", Outcome::LeftOut { why: "const".into() }));
+        record.put(entry("b.rs:1:1: x", Outcome::Unviable));
         assert_eq!(record.counts(), [1, 0, 0, 1]);
         assert_eq!(record.by_file().get("b.rs"), Some(&[0, 0, 0, 1]));
         let Ok(folder) = tempfile::tempdir() else { unreachable!("there is a temporary folder") };

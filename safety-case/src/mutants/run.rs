@@ -7,12 +7,13 @@ use std::process::Stdio;
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
+use super::alone;
 use super::build::built;
 use super::list::every;
 use super::record::{Entry, Outcome, Record};
 use crate::copy::Program;
 use crate::error::{ToolError, read, write};
-use crate::mistakes::Shard;
+use crate::mistakes::{Listed, Shard};
 use crate::prove::shipped;
 use crate::spread::as_it_comes;
 
@@ -55,26 +56,6 @@ impl Test {
         format!("{}/{}", self.program.package, self.program.name)
     }
 
-    /// Whether it passes with this variable. One that does not end in time does not.
-    fn passes(&self, variable: (&str, &OsStr), within: Duration) -> Result<bool, ToolError> {
-        let mut command = self.program.command();
-        command.stdout(Stdio::null()).stderr(Stdio::null());
-        command.env("RUST_TEST_THREADS", "1").env("RUST_BACKTRACE", "0").env(variable.0, variable.1);
-        let started = ToolError::start(&self.program.name);
-        let mut child = command.spawn().map_err(&started)?;
-        let began = Instant::now();
-        loop {
-            if let Some(status) = child.try_wait().map_err(&started)? {
-                return Ok(status.success());
-            }
-            if began.elapsed() > within {
-                child.kill().and_then(|()| child.wait()).map_err(&started)?;
-                return Ok(false);
-            }
-            std::thread::sleep(LOOK);
-        }
-    }
-
     fn patience(&self) -> Duration {
         self.takes.saturating_mul(8).saturating_add(PATIENCE)
     }
@@ -85,30 +66,60 @@ impl Test {
     }
 }
 
+/// Whether a test program passes with these variables. One that does not end in time does not.
+///
+/// # Errors
+/// It does not start.
+pub(super) fn passes(program: &Program, variables: &[(&str, &OsStr)], within: Duration) -> Result<bool, ToolError> {
+    let mut command = program.command();
+    command.stdout(Stdio::null()).stderr(Stdio::null());
+    command.env("RUST_TEST_THREADS", "1").env("RUST_BACKTRACE", "0").envs(variables.iter().copied());
+    let started = ToolError::start(&program.name);
+    let mut child = command.spawn().map_err(&started)?;
+    let began = Instant::now();
+    loop {
+        if let Some(status) = child.try_wait().map_err(&started)? {
+            return Ok(status.success());
+        }
+        if began.elapsed() > within {
+            child.kill().and_then(|()| child.wait()).map_err(&started)?;
+            return Ok(false);
+        }
+        std::thread::sleep(LOOK);
+    }
+}
+
 /// Runs the test programs without a mutant: how long each takes, and which mutants it meets. What does not pass then judges nothing, and
 /// is told.
 fn measured(
     programs: Vec<Program>,
-    longest: Duration,
+    (longest, jobs): (Duration, usize),
     folder: &Path,
     say: &mut dyn FnMut(&str),
 ) -> Result<Vec<Test>, ToolError> {
-    let (mut all, seen) = (Vec::new(), folder.join("seen"));
-    for program in programs {
+    let mut all = Vec::new();
+    let each = |program: Program| {
+        let seen = folder.join(format!("seen-{}-{}", program.package, program.name));
         write(&seen, b"")?;
-        let mut test = Test { program, takes: Duration::ZERO, caught: 0, meets: BTreeSet::new() };
         let began = Instant::now();
-        let mut passes = test.passes(("MUTANT", OsStr::new("0")), longest)?;
-        test.takes = began.elapsed();
+        let mut alone = passes(&program, &[("MUTANT", OsStr::new("0"))], longest)?;
+        let takes = began.elapsed();
         // To look at every mutant takes its time, too.
-        passes = passes && test.passes(("MUTANT_SEEN", seen.as_os_str()), longest.saturating_mul(10))?;
-        if passes {
-            test.meets = read(&seen)?.lines().filter_map(|line| line.parse().ok()).collect();
+        alone = alone && passes(&program, &[("MUTANT_SEEN", seen.as_os_str())], longest.saturating_mul(10))?;
+        let meets = read(&seen)?.lines().filter_map(|line| line.parse().ok()).collect();
+        Ok((alone, Test { program, takes, caught: 0, meets }))
+    };
+    as_it_comes(programs.into_iter(), jobs, each, |result| {
+        let Some(result) = result else { return Ok(()) };
+        let (alone, test): (bool, Test) = result?;
+        if alone {
             all.push(test);
         } else {
             say(&format!("LEFT OUT: {} does not pass within {} s without a mutant", test.name(), longest.as_secs()));
         }
-    }
+        Ok::<(), ToolError>(())
+    })?;
+    all.sort_by(|one, other| one.program.cmp(&other.program));
     Ok(all)
 }
 
@@ -119,7 +130,7 @@ fn caught(tests: &Mutex<Vec<Test>>, mutant: u32) -> Result<Option<String>, ToolE
     order.sort_by(|one, other| other.worth().total_cmp(&one.worth()));
     let number = mutant.to_string();
     for test in order {
-        if !test.passes(("MUTANT", OsStr::new(&number)), test.patience())? {
+        if !passes(&test.program, &[("MUTANT", OsStr::new(&number))], test.patience())? {
             if let Some(found) = lock().iter_mut().find(|present| present.program == test.program) {
                 found.caught = found.caught.saturating_add(1);
             }
@@ -138,38 +149,56 @@ pub fn run(root: &Path, request: Request, say: &mut dyn FnMut(&str)) -> Result<(
     let all = every(root)?;
     let target = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root.join("target"), |folder| root.join(folder));
     let built = built(root, &target.join("mutants"), &all, say)?;
-    let tests = measured(built.programs, request.longest, &target.join("mutants"), say)?;
+    let tests = measured(built.programs, (request.longest, request.jobs), &target.join("mutants"), say)?;
     let mut record = Record::load(root)?;
-    let names = tests.iter().map(Test::name).collect();
+    let names: Vec<String> = tests.iter().map(Test::name).collect();
     if record.sources != sources || request.again {
         record = Record::default();
     }
-    record = Record { sources: sources.clone(), listed: all.len(), tests: names, ..record };
+    // What one run left out another may have run.
+    let tests_run = record.tests.iter().cloned().chain(names).collect::<BTreeSet<String>>().into_iter().collect();
+    record = Record { sources: sources.clone(), listed: all.len(), tests: tests_run, ..record };
+    record.mutants.retain(|entry| all.iter().any(|(_, listed)| listed.name == entry.name));
     // A survivor is tried again, after the others: there may be a new test.
     let (mut queue, mut survivors) = (Vec::new(), Vec::new());
     for (number, listed) in request.shard.part(all) {
         let name = listed.name.clone();
-        if built.inside.contains(&number) {
-            match record.mutants.iter().find(|entry| entry.name == name).map(|entry| &entry.outcome) {
-                None => queue.push((number, name)),
-                Some(Outcome::Survived) => survivors.push((number, name)),
-                Some(Outcome::Caught { .. } | Outcome::Unviable | Outcome::LeftOut { .. }) => {}
-            }
+        let before = record.mutants.iter().find(|entry| entry.name == name).map(|entry| &entry.outcome);
+        if built.unviable.contains(&number) {
+            record.put(Entry { name, outcome: Outcome::Unviable });
         } else {
-            let why = "in a constant function, or beside a pattern that binds a name".to_owned();
-            let outcome = if built.unviable.contains(&number) { Outcome::Unviable } else { Outcome::LeftOut { why } };
-            record.put(Entry { name, outcome });
+            match before {
+                None => queue.push((number, listed)),
+                Some(Outcome::Survived) => survivors.push((number, listed)),
+                Some(Outcome::Caught { .. } | Outcome::Equal { .. } | Outcome::Unviable) => {}
+            }
         }
     }
+    // What must be built alone takes longest, and knows by then which test programs catch most.
+    let is_alone = |(number, _): &(u32, Listed)| !built.inside.contains(number);
     queue.append(&mut survivors);
+    queue.sort_by_key(is_alone);
     record.save(root)?;
     let (total, began) = (queue.len(), Instant::now());
-    say(&format!("{total} to run against {} test programs, {} at a time", tests.len(), request.jobs));
-    let tests = Mutex::new(tests);
-    let goes_on = |_: &(u32, String)| request.within.is_none_or(|within| began.elapsed() < within);
-    let each = |(number, name)| {
-        let by = caught(&tests, number)?;
-        Ok(Entry { name, outcome: by.map_or(Outcome::Survived, |by| Outcome::Caught { by }) })
+    let alone = queue.iter().filter(|mutant| is_alone(mutant)).count();
+    let count = tests.len();
+    say(&format!("{total} to run against {count} test programs, {} at a time; {alone} are built alone", request.jobs));
+    let (tests, order) = (Mutex::new(tests), alone::order(&record));
+    let copies = |job: usize| alone::copy(root, &target.join("mutants/alone").join(job.to_string()));
+    let copies = Mutex::new((0..request.jobs.max(1)).map(copies).collect::<Result<Vec<_>, _>>()?);
+    let copies = || copies.lock().unwrap_or_else(PoisonError::into_inner);
+    let goes_on = |_: &(u32, Listed)| request.within.is_none_or(|within| began.elapsed() < within);
+    let each = |(number, listed): (u32, Listed)| {
+        let outcome = if built.inside.contains(&number) {
+            caught(&tests, number)?.map_or(Outcome::Survived, |by| Outcome::Caught { by })
+        } else {
+            // There is one for each job.
+            let Some(copy) = copies().pop() else { return Err(ToolError::Arguments("no copy is left".to_owned())) };
+            let judged = alone::judge(&copy, root, &listed, &order, request.longest.saturating_mul(8));
+            copies().push(copy);
+            judged?
+        };
+        Ok(Entry { name: listed.name, outcome })
     };
     let mut done = 0_usize;
     as_it_comes(queue.into_iter().take_while(goes_on), request.jobs, each, |result| {

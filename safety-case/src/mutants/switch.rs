@@ -1,7 +1,8 @@
 //! Puts every mutant of a file into it at once, each behind a switch: one build then holds them all, and a number chooses one.
 //!
 //! What is built is `mutant_switch` ([`CRATE`]) and the rewritten files. A mutant is left out where it cannot be switched: in a function that must
-//! stay `const`, in a condition that binds a name, or where the compiler refuses it.
+//! stay `const`, in a condition that binds a name, or where the compiler refuses it. What is put in keeps the tree of the expression, as if in
+//! parentheses, also where the other operator alone would bind differently.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
@@ -309,11 +310,18 @@ impl<'a> Visit<'a> for Writer<'_> {
         let Some(base) = &node.rest else { return };
         for field in &node.fields {
             let Member::Named(name) = &field.member else { continue };
-            let mutants = self.mutants(Genre::Field, &of(field));
+            let range = of(field);
+            // cargo-mutants deletes the comma, too.
+            let with_comma = self
+                .text
+                .get(range.end..)
+                .and_then(|rest| rest.find(','))
+                .map_or(range.end, |comma| range.end + comma + 1);
+            let mutants = self.mutants(Genre::Field, &(range.start..with_comma));
             let Some((number, _)) = mutants.first() else { continue };
             let (value, base) = (self.take(of(&field.expr)), self.text.get(of(base)).unwrap_or_default());
             let text = format!("{name}: if ::mutant_switch::on({number}) {{ ({base}).{name} }} else {{ {value} }}");
-            self.wrap(of(field), &mutants, &text);
+            self.wrap(range, &mutants, &text);
         }
     }
 }
@@ -359,7 +367,7 @@ mod tests {
             mutant(2, Genre::Binary, "a < ", "<="),
             mutant(3, Genre::Binary, "a < ", "=="),
             mutant(4, Genre::Binary, "3 || ", "&&"),
-            mutant(5, Genre::Field, "a: 1", ""),
+            mutant(5, Genre::Field, "a: 1,", ""),
             mutant(6, Genre::Body, "!b && (a < 3 || b) && g(S { a: 1, ..T })", "true"),
         ];
         let (new, inside) = text(&all, &[]);

@@ -94,6 +94,26 @@ const fn timeout() -> u64 {
 }
 
 impl Harness {
+    /// One that stands in no list.
+    #[must_use]
+    pub fn apart(name: &str, path: &str, solver: Solver) -> Self {
+        Self {
+            name: name.to_owned(),
+            path: path.to_owned(),
+            family: String::new(),
+            requirements: Vec::new(),
+            extent: String::new(),
+            open: None,
+            solver,
+            timeout: TIMEOUT,
+            stubs: false,
+            reach_checks: false,
+            checks: Checks::All,
+            key: false,
+            configured: false,
+        }
+    }
+
     /// As Kani names it.
     #[must_use]
     pub fn id(&self) -> String {

@@ -32,6 +32,8 @@ pub struct Options {
     pub solver: Option<Solver>,
     /// Another limit for the solver.
     pub timeout: Option<Duration>,
+    /// Another package than that with the harnesses.
+    pub package: Option<String>,
     /// A sealed configuration, an absolute path; without it, the default one.
     pub configuration: Option<PathBuf>,
     /// Decide nothing but the assertions of the harness whose text contains this: for one who looks for a failure. It
@@ -107,7 +109,7 @@ pub fn verify(root: &Path, target: &Path, harness: &Harness, options: &Options) 
     if export.exists() {
         fs::remove_file(&export).map_err(|error| file(&export, error))?;
     }
-    let mut command = command(root, target, options.configuration.as_deref());
+    let mut command = command(root, target, options.package.as_deref(), options.configuration.as_deref());
     select(&mut command, harness, options);
     command.args(["--output-format", "terse", "--export-json"]).arg(&export);
     let started = Instant::now();
@@ -157,7 +159,7 @@ fn restrict(
 /// The names of the checks that a harness of [`Checks::Own`] decides: what stands in this package, and the bound of
 /// every loop, without which a proof would be one of the first few rounds only.
 fn own(root: &Path, target: &Path, harness: &Harness, options: &Options) -> Result<Vec<String>, ToolError> {
-    let mut command = command(root, target, options.configuration.as_deref());
+    let mut command = command(root, target, options.package.as_deref(), options.configuration.as_deref());
     select(&mut command, harness, options);
     let log = run(command.arg("--only-codegen"), &target.join(format!("{}-codegen.log", harness.name)))?;
     let none = |log: String| ToolError::NoResult { harness: harness.name.clone(), log };
@@ -225,7 +227,7 @@ pub fn compile(root: &Path, target: &Path, options: &Options) -> Result<BTreeSet
     if list.exists() {
         fs::remove_file(&list).map_err(|error| file(&list, error))?;
     }
-    let mut command = command(root, target, options.configuration.as_deref());
+    let mut command = command(root, target, options.package.as_deref(), options.configuration.as_deref());
     command.current_dir(target).arg("--manifest-path").arg(root.join("Cargo.toml"));
     let log = run(command.args(["list", "--format", "json", "-Z", "stubbing"]), &target.join("kani-list.log"))?;
     if !list.exists() {
@@ -245,7 +247,7 @@ pub fn compile(root: &Path, target: &Path, options: &Options) -> Result<BTreeSet
 /// A file or the tool fails.
 pub fn playback(root: &Path, target: &Path, harness: &Harness, options: &Options) -> Result<Vec<String>, ToolError> {
     fs::create_dir_all(target).map_err(|error| file(target, error))?;
-    let mut command = command(root, target, options.configuration.as_deref());
+    let mut command = command(root, target, options.package.as_deref(), options.configuration.as_deref());
     select(&mut command, harness, options);
     command.args(["-Z", "concrete-playback", "--concrete-playback=print"]);
     restrict(&mut command, root, target, harness, options)?;
@@ -262,9 +264,9 @@ fn tests_in(log: &str) -> Vec<String> {
 }
 
 /// `cargo kani` for the package with the harnesses.
-fn command(root: &Path, target: &Path, configuration: Option<&Path>) -> Command {
+fn command(root: &Path, target: &Path, package: Option<&str>, configuration: Option<&Path>) -> Command {
     let mut command = Command::new("cargo");
-    command.current_dir(root).args(["kani", "-p", PACKAGE, "--target-dir"]).arg(target);
+    command.current_dir(root).args(["kani", "-p", package.unwrap_or(PACKAGE), "--target-dir"]).arg(target);
     // Kani refuses sources with a stub in any of their harnesses without it, also where another one runs.
     command.args(["-Z", "stubbing"]);
     match configuration {

@@ -72,6 +72,7 @@ impl Gate {
             list: List::load(&root)?,
             present: Present { sources: Sources::load(&root)?, configuration: default_configuration()? },
             options: Options {
+                package: None,
                 solver: arguments.solver,
                 timeout: arguments.timeout.map(Duration::from_secs),
                 configuration: None,

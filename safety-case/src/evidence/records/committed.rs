@@ -276,7 +276,7 @@ fn mutated(shared: &Shared<'_>) -> Outcome {
         "Mutants against the tests",
         mutants::RECORD,
         "supervise mutants",
-        "Mutants that could not be switched, or were not run.",
+        "Mutants that were not run; what a test program would have caught that takes too long to run for each.",
     );
     let record = mutants::Record::load(root)?;
     if record.mutants.is_empty() {
@@ -284,7 +284,7 @@ fn mutated(shared: &Shared<'_>) -> Outcome {
     }
     let changed = if record.sources == shipped(root)? { Vec::new() } else { vec!["the shipped sources".to_owned()] };
     standing.state = State::of(changed);
-    let [caught, survived, unviable, left_out] = record.counts();
+    let [caught, survived, equal, unviable] = record.counts();
     let explained = mutants::Explained::all(root)?;
     let unexplained: Vec<&str> =
         record.survivors().filter(|name| mutants::Explained::of(&explained, name, &record).is_none()).collect();
@@ -297,8 +297,8 @@ fn mutated(shared: &Shared<'_>) -> Outcome {
         survived.saturating_sub(unexplained.len()),
         "of these with a reason why nothing changes",
     );
+    standing.figure("equal", equal, "proved by Kani to change nothing");
     standing.figure("unviable", unviable, "do not compile");
-    standing.figure("left_out", left_out, "cannot be switched, and were not tried");
     if record.mutants.len() < record.listed {
         standing.open.push(format!(
             "{} of {} mutants were not run",
@@ -306,9 +306,7 @@ fn mutated(shared: &Shared<'_>) -> Outcome {
             record.listed
         ));
     }
-    if left_out > 0 {
-        standing.open.push(format!("{left_out} mutants can not be switched and were not tried"));
-    }
+    standing.open.extend(mutants::findings(&explained, &record));
     standing.open.extend(unexplained.iter().map(|name| format!("survived: {name}")));
     Ok(standing)
 }
