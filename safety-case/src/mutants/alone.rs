@@ -9,7 +9,7 @@ use std::time::Duration;
 use super::build::PROFILE;
 use super::record::{Outcome, Record};
 use super::run::passes;
-use crate::copy::{Copy, WITH_TESTS, cargo, programs};
+use crate::copy::{Copy, WITH_TESTS, cargo, errors, programs};
 use crate::error::ToolError;
 use crate::mistakes::Listed;
 
@@ -48,7 +48,10 @@ pub fn judge(
     within: Duration,
 ) -> Result<Outcome, ToolError> {
     copy.plant(&listed.change(root)?)?;
-    if copy.compiles(&listed.package)?.is_err() {
+    // With every feature: what is built for simulations only must compile, too, to be a mutant.
+    let (compiles, ..) =
+        cargo(copy, &["check", "--release", "--lib", "--all-features", "-p", &listed.package], &PROFILE)?;
+    if !compiles {
         return Ok(Outcome::Unviable);
     }
     for test in order {
@@ -59,9 +62,10 @@ pub fn judge(
         let build = [&["test", "--release", "--no-run", "-p", package.as_str()], chosen].concat();
         let (compiles, said, _) = cargo(copy, &build, &PROFILE)?;
         let caught = || Outcome::Caught { by: test.clone() };
-        if !compiles {
+        if !compiles && errors(&said).next().is_some() {
             return Ok(caught());
         }
+        // One that is no test target (the tests of a binary) is not built, and judges nothing.
         for program in programs(&said) {
             if !passes(&program, &[], within)? {
                 return Ok(caught());
