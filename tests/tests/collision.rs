@@ -324,6 +324,14 @@ fn the_greatest_plausible_deceleration_counts() {
     }
 }
 
+/// RULE-1b: two sensors that deliver and see nothing give a clear road; without them nothing is known.
+#[test]
+fn an_empty_road_is_clear_and_a_lost_one_unknown() {
+    let threat = |scene: &Scene| perceive(scene, &Config::DEFAULT);
+    assert_eq!(threat(&Scene::clear()), Threat::CLEAR);
+    assert_eq!(threat(&Scene::default()), Threat::UNKNOWN);
+}
+
 /// FCW-1a, PCW-1a, RULE-1b: at boot, with perception not known yet, no warning is on.
 #[test]
 fn no_warning_is_on_before_anything_is_seen() {

@@ -93,6 +93,19 @@ fn any_content() {
     }
 }
 
+/// SELF-10a: two of them in one cycle, or three, are no less foreign than one.
+#[test]
+fn more_than_one() {
+    let mut node = Node::new();
+    let other = node.first(Message::ServiceBrake);
+    for count in 1..=3 {
+        for _ in 0..count {
+            assert_eq!(node.watch(0, &from(&other, 0x0B)), somebody(Message::ServiceBrake));
+        }
+        assert_eq!(node.sample(0), (only(Channel::ServiceBrake), false), "{count}");
+    }
+}
+
 /// SELF-10a: TSC1 to all addresses is obeyed by drive and retarder, XBR to all by the brakes. Proprietary B has no
 /// address: there 0xFF is another message.
 #[test]
