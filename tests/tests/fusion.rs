@@ -283,6 +283,12 @@ fn the_threshold_in_pixels() {
     for (width, expected) in [(59, false), (60, false), (61, true)] {
         assert_eq!(matched(PixelBox { width, ..BOX }), expected, "{width}");
     }
+    // At the radar itself it fills the picture, and all that is known of it is 0: 384 of 1280 columns.
+    for (width, expected) in [(383, false), (384, false), (385, true)] {
+        let pixels = PixelBox { left: 0, top: 0, width, height: 720 };
+        let unseen = RadarObject { updates: Count::new(0), ..once(0, 0, 0) };
+        assert_eq!(classes(&[unseen], &[seen(pixels, Class::Object)]), [expected.then_some(Class::Object)], "{width}");
+    }
     // Nothing, and boxes out of the picture.
     for pixels in [
         PixelBox::default(),
