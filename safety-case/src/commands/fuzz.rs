@@ -14,15 +14,13 @@ const QUIET: u64 = 1_800;
 pub(super) fn run(arguments: &Fuzz) -> Outcome {
     let root = root()?;
     let (path, sources) = (root.join(RECORD), Sources::load(root)?);
-    let mut record = Record::load(&path)?;
+    let record = Record::load(&path)?;
     if arguments.check {
         show(&record)?;
         return missing(&record, &sources);
     }
-    if record.sources != sources {
-        record = Record { sources: sources.clone(), targets: Vec::new() };
-    }
     if !arguments.merge.is_empty() {
+        let mut record = record.on(&sources);
         for part in &arguments.merge {
             record.merge(Record::load(part)?)?;
         }
@@ -53,7 +51,8 @@ pub(super) fn run(arguments: &Fuzz) -> Outcome {
     }
     let found: u64 = ran.iter().map(|target| target.found).sum();
     let (mut record, path) = match arguments.shard {
-        None => (record, path),
+        // As it is now: another run may have written it meanwhile.
+        None => (Record::load(&path)?.on(&sources), path),
         Some((part, of)) => {
             let path = root.join(format!("target/fuzz/shard-{part}-of-{of}.json"));
             (Record { sources, targets: Vec::new() }, path)
@@ -97,6 +96,8 @@ fn missing(record: &Record, sources: &Sources) -> Outcome {
         findings.push("STALE: the shipped sources changed since".to_owned());
     } else if record.sources.judges != sources.judges {
         findings.push("STALE: targets, properties or the oracle changed since".to_owned());
+    } else if record.sources.parsers != sources.parsers {
+        findings.push("STALE: the parsers of the host changed since".to_owned());
     }
     if record.cycles() < CYCLES {
         findings.push(format!("{} of {} cycles", grouped(record.cycles()), grouped(CYCLES)));

@@ -16,6 +16,9 @@ pub const TARGETS: [&str; 5] = ["command_stream", "differential", "wire_bytes", 
 /// What makes the inputs and judges the cycles.
 const JUDGES: [&str; 5] =
     ["fuzz/src", "fuzz/fuzz_targets", "proofs/src/properties", "tests/tests/common", "tests/tests/oracle"];
+/// What reads files of others, and the targets that try it.
+const PARSERS: [&str; 2] = ["safety-case/src/candump", "safety-case/src/road"];
+const PARSING: [&str; 2] = ["candump_log", "dbc_map"];
 
 /// Digests of what was fuzzed.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -25,6 +28,9 @@ pub struct Sources {
     pub shipped: String,
     /// Targets, properties and oracle.
     pub judges: String,
+    /// The parsers of the host, for the targets that try them. A record of before has none.
+    #[serde(default)]
+    pub parsers: String,
 }
 
 impl Sources {
@@ -33,7 +39,7 @@ impl Sources {
     /// # Errors
     /// A file cannot be read or is no Rust.
     pub fn load(root: &Path) -> Result<Self, ToolError> {
-        Ok(Self { shipped: stepped(root)?, judges: tokens(root, &JUDGES)? })
+        Ok(Self { shipped: stepped(root)?, judges: tokens(root, &JUDGES)?, parsers: tokens(root, &PARSERS)? })
     }
 }
 
@@ -113,6 +119,18 @@ impl Record {
         write(path, format!("{text}\n").as_bytes())
     }
 
+    /// What still speaks of these sources.
+    #[must_use]
+    pub fn on(mut self, sources: &Sources) -> Self {
+        if (&self.sources.shipped, &self.sources.judges) != (&sources.shipped, &sources.judges) {
+            self.targets.clear();
+        } else if self.sources.parsers != sources.parsers {
+            self.targets.retain(|run| !PARSING.contains(&run.target.as_str()));
+        }
+        self.sources = sources.clone();
+        self
+    }
+
     /// Adds the run of a target that came after those that are in it.
     pub fn add(&mut self, run: Target) {
         self.put(run, Target::then);
@@ -173,8 +191,24 @@ mod tests {
         part.add(ran(60, 6, 50));
         assert!(record.merge(part.clone()).is_ok());
         assert_eq!(record.targets, [Target { inputs: 20, cycles: 200, ..ran(120, 6, 20) }]);
-        part.sources = Sources { shipped: "other".into(), judges: String::new() };
+        part.sources.shipped = "other".into();
         assert!(record.merge(part).is_err());
+    }
+
+    #[test]
+    fn only_what_speaks_of_the_present_sources_stays() {
+        let mut record = Record::default();
+        record.add(Target { target: "command_stream".into(), ..ran(60, 5, 20) });
+        record.add(Target { target: "dbc_map".into(), ..ran(60, 5, 20) });
+        let left = |sources: &Sources| {
+            let record = record.clone().on(sources);
+            assert_eq!(record.sources, *sources);
+            record.targets.iter().map(|run| run.target.clone()).collect::<Vec<_>>()
+        };
+        assert_eq!(left(&Sources::default()), ["command_stream", "dbc_map"]);
+        assert_eq!(left(&Sources { parsers: "other".into(), ..Sources::default() }), ["command_stream"]);
+        assert!(left(&Sources { judges: "other".into(), ..Sources::default() }).is_empty());
+        assert!(left(&Sources { shipped: "other".into(), ..Sources::default() }).is_empty());
     }
 
     #[test]
