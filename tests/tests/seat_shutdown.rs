@@ -356,6 +356,40 @@ fn a_finished_shutdown_rests() {
     assert_eq!(bus.step().status.faults, Faults::NONE);
 }
 
+/// SEAT-7a, SEAT-8a: high voltage that comes back after a complete shutdown, or is not known to be off, is opened again.
+#[test]
+fn what_closes_by_itself_is_opened_again() {
+    for (k4, k1) in [(CLOSED, CLOSED), (CLOSED, OPEN), (OPEN, CLOSED), (MISSING, OPEN)] {
+        let mut bus = Bus::down();
+        (bus.inputs.k4, bus.inputs.k1) = (k4, k1);
+        let decision = bus.step();
+        assert_eq!(decision.status.stage, Stage::OpeningK4);
+        assert!(opens_k4(&decision) && !opens_k1(&decision), "{k4:?} {k1:?}");
+        bus.inputs.k4 = OPEN;
+        assert!(opens_k1(&bus.step()));
+        bus.inputs.k1 = OPEN;
+        assert_eq!(bus.step().status.stage, Stage::Down);
+        assert_eq!(bus.step().outputs.contactors, Contactors::NEUTRAL);
+    }
+}
+
+/// SEAT-7c, SEAT-7d: the guards of the first time hold the second time, too.
+#[test]
+fn what_closes_by_itself_waits_for_the_guards() {
+    let losses: [fn(&mut Bus); 3] = [
+        |bus| bus.inputs.epb = unknown(Cause::Stale),
+        |bus| bus.inputs.executed_torque = known(percent(20)),
+        |bus| bus.occupied(),
+    ];
+    for lose in losses {
+        let mut bus = Bus::down();
+        lose(&mut bus);
+        (bus.inputs.k4, bus.inputs.k1) = (CLOSED, CLOSED);
+        let decision = bus.step();
+        assert!(!opens_k4(&decision) && decision.status.stage == Stage::Down);
+    }
+}
+
 // The commit.
 
 /// SEAT-7k: the driver returns after the commit: the sequence runs on to K1 open, and nothing closes before.

@@ -69,6 +69,7 @@ fn seat_7_high_voltage_exactly() {
     let (old, new) = (&any.old.high_voltage, &any.decided.state.high_voltage);
     kani::cover!(old.stage == Stage::Up && new.stage == Stage::OpeningK4, "the shutdown begins");
     kani::cover!(old.stage == Stage::Down && new.stage == Stage::Up, "high voltage may come again");
+    kani::cover!(old.stage == Stage::Down && new.stage == Stage::OpeningK4, "what came back by itself is opened again");
     kani::cover!(new.parked > old.parked && !cycle.vacant(), "an unknown seat lets the ten minutes continue");
     kani::cover!(any.old.boot.pending == Pending::Clean && new.restart == Restart::OffSeen, "a clean key-on");
 }

@@ -43,10 +43,11 @@ pub fn hv_1_k4_opens_without_load(cycle: &Cycle<'_>) -> bool {
     implies(opens, cycle.standstill() && cycle.torque_stopped() && cycle.outputs.drive.torque == Percent::ZERO)
 }
 
-/// SEAT-7a: ten minutes parked by leave with the guards kept: K4 is commanded open, whatever the controller says.
+/// SEAT-7a: ten minutes parked by leave with the guards kept: K4 is commanded open, whatever the controller says, and also where a
+/// shutdown was complete and high voltage is on again.
 #[must_use]
 pub fn seat_7_shutdown_happens(cycle: &Cycle<'_>) -> bool {
-    let due = cycle.old.high_voltage.stage == Stage::Up
+    let due = matches!(cycle.old.high_voltage.stage, Stage::Up | Stage::Down)
         && cycle.new.high_voltage.parked.reached(cycle.config.shutdown_after)
         && !(cycle.inputs.k4.is(Contact::Open) && cycle.inputs.k1.is(Contact::Open))
         && cycle.agreed_standstill()
@@ -68,7 +69,8 @@ pub fn seat_7_k1_follows(cycle: &Cycle<'_>) -> bool {
     implies(due, cycle.outputs.contactors.k1 == ContactorRequest::Open)
 }
 
-/// SEAT-7k: once K4 is commanded the sequence is committed: it ends in *down* only.
+/// SEAT-7k, SEAT-8a: once K4 is commanded the sequence is committed: it ends in *down* only; from there only the driver's restart
+/// leads up.
 #[must_use]
 pub fn seat_7_committed(cycle: &Cycle<'_>) -> bool {
     let (old, new) = (cycle.old.high_voltage.stage, cycle.new.high_voltage.stage);
@@ -77,7 +79,7 @@ pub fn seat_7_committed(cycle: &Cycle<'_>) -> bool {
         Stage::OpeningK4 => matches!(new, Stage::OpeningK4 | Stage::OpeningK1),
         Stage::OpeningK1 => matches!(new, Stage::OpeningK1 | Stage::Down),
         Stage::Down => {
-            matches!(new, Stage::Down | Stage::Up)
+            matches!(new, Stage::Down | Stage::OpeningK4 | Stage::Up)
                 && implies(new == Stage::Up, cycle.new.high_voltage.restart == Restart::Started)
         }
     }
@@ -127,7 +129,8 @@ pub fn self_7_contactor_fault_closes_nothing(cycle: &Cycle<'_>) -> bool {
 }
 
 /// SEAT-7a, SEAT-7e, SEAT-7k, SEAT-8a: every step of the shutdown on its own evidence, and no other: it begins exactly when ten
-/// minutes have run and every guard is kept, goes on by the confirmed contactors, and ends by the driver's restart.
+/// minutes have run and every guard is kept, and again when high voltage is on after it was down, goes on by the confirmed
+/// contactors, and ends by the driver's restart.
 #[must_use]
 pub fn seat_7_stages_exactly(cycle: &Cycle<'_>) -> bool {
     let (old, new, inputs) = (&cycle.old.high_voltage, &cycle.new.high_voltage, cycle.inputs);
@@ -139,7 +142,7 @@ pub fn seat_7_stages_exactly(cycle: &Cycle<'_>) -> bool {
         && inputs.epb.is(EpbState::Applied)
         && cycle.torque_stopped();
     let next = match old.stage {
-        Stage::Up if begins => Stage::OpeningK4,
+        Stage::Up | Stage::Down if begins => Stage::OpeningK4,
         Stage::OpeningK4 if k4_open => Stage::OpeningK1,
         Stage::OpeningK1 if k4_open && k1_open => Stage::Down,
         Stage::Down if new.restart == Restart::Started => Stage::Up,

@@ -73,7 +73,7 @@ impl HighVoltage {
         };
         let (k4_open, k1_open) = (inputs.k4.is(Contact::Open), inputs.k1.is(Contact::Open));
         let restart = self.restart(seat, clean, evidence, inputs, config);
-        // SEAT-7a to SEAT-7d: the shutdown begins with every guard kept.
+        // SEAT-7a to SEAT-7d: the shutdown begins with every guard kept; again, if high voltage is on that it had turned off.
         let begin = parked.reached(config.shutdown_after)
             && !(k4_open && k1_open)
             && evidence.seat == SeatView::Vacant
@@ -81,7 +81,7 @@ impl HighVoltage {
             && inputs.epb.is(EpbState::Applied)
             && torque_stopped(inputs, config);
         let stage = match self.stage {
-            Stage::Up if begin => Stage::OpeningK4,
+            Stage::Up | Stage::Down if begin => Stage::OpeningK4,
             // SEAT-7k, SEAT-8a: only a complete restart leads up again, and never out of a committed sequence.
             Stage::Down if restart == Restart::Started => Stage::Up,
             Stage::OpeningK4 if k4_open => Stage::OpeningK1,
