@@ -20,7 +20,7 @@ pub(super) fn run(arguments: &Fuzz) -> Outcome {
         return missing(&record, &sources);
     }
     if !arguments.merge.is_empty() {
-        let mut record = record.on(&sources);
+        let mut record = record.for_sources(&sources);
         for part in &arguments.merge {
             record.merge(Record::load(part)?)?;
         }
@@ -52,7 +52,7 @@ pub(super) fn run(arguments: &Fuzz) -> Outcome {
     let found: u64 = ran.iter().map(|target| target.found).sum();
     let (mut record, path) = match arguments.shard {
         // As it is now: another run may have written it meanwhile.
-        None => (Record::load(&path)?.on(&sources), path),
+        None => (Record::load(&path)?.for_sources(&sources), path),
         Some((part, of)) => {
             let path = root.join(format!("target/fuzz/shard-{part}-of-{of}.json"));
             (Record { sources, targets: Vec::new() }, path)

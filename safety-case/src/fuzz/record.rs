@@ -16,9 +16,10 @@ pub const TARGETS: [&str; 5] = ["command_stream", "differential", "wire_bytes", 
 /// What makes the inputs and judges the cycles.
 const JUDGES: [&str; 5] =
     ["fuzz/src", "fuzz/fuzz_targets", "proofs/src/properties", "tests/tests/common", "tests/tests/oracle"];
-/// What reads files of others, and the targets that try it.
+/// What reads the files of others.
 const PARSERS: [&str; 2] = ["safety-case/src/candump", "safety-case/src/road"];
-const PARSING: [&str; 2] = ["candump_log", "dbc_map"];
+/// The targets that try it.
+const PARSER_TARGETS: [&str; 2] = ["candump_log", "dbc_map"];
 
 /// Digests of what was fuzzed.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -121,11 +122,11 @@ impl Record {
 
     /// What still speaks of these sources.
     #[must_use]
-    pub fn on(mut self, sources: &Sources) -> Self {
+    pub fn for_sources(mut self, sources: &Sources) -> Self {
         if (&self.sources.shipped, &self.sources.judges) != (&sources.shipped, &sources.judges) {
             self.targets.clear();
         } else if self.sources.parsers != sources.parsers {
-            self.targets.retain(|run| !PARSING.contains(&run.target.as_str()));
+            self.targets.retain(|run| !PARSER_TARGETS.contains(&run.target.as_str()));
         }
         self.sources = sources.clone();
         self
@@ -201,7 +202,7 @@ mod tests {
         record.add(Target { target: "command_stream".into(), ..ran(60, 5, 20) });
         record.add(Target { target: "dbc_map".into(), ..ran(60, 5, 20) });
         let left = |sources: &Sources| {
-            let record = record.clone().on(sources);
+            let record = record.clone().for_sources(sources);
             assert_eq!(record.sources, *sources);
             record.targets.iter().map(|run| run.target.clone()).collect::<Vec<_>>()
         };
