@@ -7,9 +7,10 @@ use super::part;
 pub(super) const ABOUT: &str = "\
 Tests the tests: runs them once for every mutant that cargo-mutants lists of the shipped crates (an operator, a guard, a body,
 a field changed). All mutants are built once, each behind a switch, into target/mutants; then the test programs of the packages
-supervisor-tests, supervisor-proofs, supervisor-wire and supervisor-observe run for each mutant, those first that catch most in
-the least time, until one fails. A program in which a mutant makes no difference where it stands is not run for it: it would run
-as it does without. The few mutants that cannot be switched are built alone.
+supervisor-tests, supervisor-proofs, supervisor-wire and supervisor-observe run for each mutant until one fails: first the one
+that caught it on the sources of before, then those that catch most in the least time. A program in which a mutant makes no
+difference where it stands is not run for it: it would run as it does without. The few mutants that cannot be switched are built
+alone.
 Nothing but tests counts here; what the proofs catch is `supervise mistakes`.
 
 A test program that takes longer than --longest, or does not pass without a mutant, is left out, and told. A mutant that no test

@@ -2,31 +2,15 @@
 //!
 //! They stand in a function or a value that must be constant, or beside a pattern that binds a name; a switch is not constant.
 
-use std::collections::BTreeMap;
 use std::path::Path;
 use std::time::Duration;
 
 use super::build::PROFILE;
-use super::record::{Outcome, Record};
+use super::record::Outcome;
 use super::run::passes;
 use crate::copy::{Copy, WITH_TESTS, cargo, errors, programs};
 use crate::error::ToolError;
 use crate::mistakes::Listed;
-
-/// The test programs, those first that have caught most.
-#[must_use]
-pub fn order(record: &Record) -> Vec<String> {
-    let mut caught: BTreeMap<&str, usize> = BTreeMap::new();
-    for entry in &record.mutants {
-        if let Outcome::Caught { by } = &entry.outcome {
-            let count = caught.entry(by).or_default();
-            *count = count.saturating_add(1);
-        }
-    }
-    let mut order = record.tests.clone();
-    order.sort_by_key(|test| std::cmp::Reverse(caught.get(test.as_str()).copied().unwrap_or_default()));
-    order
-}
 
 /// Where they are planted.
 ///
@@ -73,19 +57,4 @@ pub fn judge(
         }
     }
     Ok(Outcome::Survived)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::order;
-    use crate::mutants::record::{Entry, Outcome, Record};
-
-    #[test]
-    fn what_has_caught_most_comes_first() {
-        let mut record = Record { tests: ["a/x", "a/y", "b/z"].map(str::to_owned).into(), ..Record::default() };
-        for (name, by) in [("1", "b/z"), ("2", "b/z"), ("3", "a/y")] {
-            record.put(Entry { name: name.to_owned(), outcome: Outcome::Caught { by: by.to_owned() } });
-        }
-        assert_eq!(order(&record), ["b/z", "a/y", "a/x"]);
-    }
 }

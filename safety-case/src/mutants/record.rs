@@ -121,6 +121,16 @@ impl Record {
         counts
     }
 
+    /// Which test program caught each mutant that was caught.
+    #[must_use]
+    pub fn catchers(&self) -> BTreeMap<String, String> {
+        let caught = self.mutants.iter().filter_map(|entry| match &entry.outcome {
+            Outcome::Caught { by } => Some((entry.name.clone(), by.clone())),
+            Outcome::Survived | Outcome::Equal { .. } | Outcome::Unviable => None,
+        });
+        caught.collect()
+    }
+
     /// The mutants that survived, and of which no proof shows that they change nothing.
     pub fn survivors(&self) -> impl Iterator<Item = &str> {
         self.mutants.iter().filter(|entry| entry.outcome == Outcome::Survived).map(|entry| entry.name.as_str())
@@ -158,6 +168,7 @@ mod tests {
         record.put(entry("a.rs:1:1: x", Outcome::Caught { by: "t".into() }));
         record.put(entry("b.rs:1:1: x", Outcome::Unviable));
         assert_eq!(record.counts(), [1, 0, 0, 1]);
+        assert_eq!(record.catchers(), [("a.rs:1:1: x".to_owned(), "t".to_owned())].into());
         assert_eq!(record.by_file().get("b.rs"), Some(&[0, 0, 0, 1]));
         let Ok(folder) = tempfile::tempdir() else { unreachable!("there is a temporary folder") };
         let path = folder.path().join("safety-case/records");

@@ -123,11 +123,18 @@ fn measured(
     Ok(all)
 }
 
-/// Runs the tests until one fails: which.
-fn caught(tests: &Mutex<Vec<Test>>, mutant: u32) -> Result<Option<String>, ToolError> {
-    let lock = || tests.lock().unwrap_or_else(PoisonError::into_inner);
-    let mut order: Vec<Test> = lock().iter().filter(|test| test.meets.contains(&mutant)).cloned().collect();
+/// The test programs in the order in which they run: the one that caught this mutant before, then those that catch most in the least time.
+fn order<'a>(tests: impl Iterator<Item = &'a Test>, before: Option<&String>) -> Vec<Test> {
+    let mut order: Vec<Test> = tests.cloned().collect();
     order.sort_by(|one, other| other.worth().total_cmp(&one.worth()));
+    order.sort_by_key(|test| before != Some(&test.name()));
+    order
+}
+
+/// Runs the tests that meet a mutant until one fails: which.
+fn caught(tests: &Mutex<Vec<Test>>, mutant: u32, before: Option<&String>) -> Result<Option<String>, ToolError> {
+    let lock = || tests.lock().unwrap_or_else(PoisonError::into_inner);
+    let order = order(lock().iter().filter(|test| test.meets.contains(&mutant)), before);
     let number = mutant.to_string();
     for test in order {
         if !passes(&test.program, &[("MUTANT", OsStr::new(&number))], test.patience())? {
@@ -152,6 +159,8 @@ pub fn run(root: &Path, request: Request, say: &mut dyn FnMut(&str)) -> Result<(
     let tests = measured(built.programs, (request.longest, request.jobs), &target.join("mutants"), say)?;
     let mut record = Record::load(root)?;
     let names: Vec<String> = tests.iter().map(Test::name).collect();
+    // What caught a mutant on other sources proves nothing of these, but is tried first.
+    let before = record.catchers();
     if record.sources != sources || request.again {
         record = Record::default();
     }
@@ -183,17 +192,20 @@ pub fn run(root: &Path, request: Request, say: &mut dyn FnMut(&str)) -> Result<(
     let alone = queue.iter().filter(|mutant| is_alone(mutant)).count();
     let count = tests.len();
     say(&format!("{total} to run against {count} test programs, {} at a time; {alone} are built alone", request.jobs));
-    let (tests, order) = (Mutex::new(tests), alone::order(&record));
+    let tests = Mutex::new(tests);
     let copies = |job: usize| alone::copy(root, &target.join("mutants/alone").join(job.to_string()));
     let copies = Mutex::new((0..request.jobs.max(1)).map(copies).collect::<Result<Vec<_>, _>>()?);
     let copies = || copies.lock().unwrap_or_else(PoisonError::into_inner);
     let goes_on = |_: &(u32, Listed)| request.within.is_none_or(|within| began.elapsed() < within);
     let each = |(number, listed): (u32, Listed)| {
+        let before = before.get(&listed.name);
         let outcome = if built.inside.contains(&number) {
-            caught(&tests, number)?.map_or(Outcome::Survived, |by| Outcome::Caught { by })
+            caught(&tests, number, before)?.map_or(Outcome::Survived, |by| Outcome::Caught { by })
         } else {
             // There is one for each job.
             let Some(copy) = copies().pop() else { return Err(ToolError::Arguments("no copy is left".to_owned())) };
+            let order = order(tests.lock().unwrap_or_else(PoisonError::into_inner).iter(), before);
+            let order: Vec<String> = order.iter().map(Test::name).collect();
             let judged = alone::judge(&copy, root, &listed, &order, request.longest.saturating_mul(8));
             copies().push(copy);
             judged?
@@ -220,4 +232,26 @@ pub fn run(root: &Path, request: Request, say: &mut dyn FnMut(&str)) -> Result<(
         Ok(())
     })?;
     record.save(root)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Test, order};
+    use crate::copy::Program;
+    use std::collections::BTreeSet;
+    use std::time::Duration;
+
+    #[test]
+    fn what_caught_it_before_comes_first_then_what_catches_most_in_the_least_time() {
+        let test = |name: &str, caught, seconds| Test {
+            program: Program { package: "tests".into(), name: name.into(), folder: "".into(), path: "".into() },
+            takes: Duration::from_secs(seconds),
+            caught,
+            meets: BTreeSet::new(),
+        };
+        let tests = [test("slow", 20, 10), test("quick", 9, 1), test("seldom", 0, 1)];
+        let names = |before: Option<&String>| order(tests.iter(), before).iter().map(Test::name).collect::<Vec<_>>();
+        assert_eq!(names(None), ["tests/quick", "tests/slow", "tests/seldom"]);
+        assert_eq!(names(Some(&"tests/seldom".to_owned())), ["tests/seldom", "tests/quick", "tests/slow"]);
+    }
 }
