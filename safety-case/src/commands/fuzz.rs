@@ -76,7 +76,7 @@ fn show(record: &Record) -> Result<(), std::io::Error> {
         "target", "inputs", "cycles", "seconds", "cycles/s", "edges", "quiet s", "found"
     ))?;
     for target in &record.targets {
-        let Target { target: name, inputs, cycles, seconds, edges, quiet_seconds, found } = target;
+        let Target { target: name, inputs, cycles, seconds, edges, quiet_seconds, found, .. } = target;
         print(format_args!(
             "{name:<16} {:>13} {:>15} {seconds:>9} {:>9} {edges:>10} {quiet_seconds:>9} {found:>6}\n",
             grouped(*inputs),

@@ -56,6 +56,9 @@ pub struct Target {
     pub cycles: u64,
     /// For how long it ran, s.
     pub seconds: u64,
+    /// For how long of that it read the corpus that it began with, s.
+    #[serde(default)]
+    pub read_seconds: u64,
     /// Edges and counters that it has reached.
     pub edges: u64,
     /// For how long, at the end, no new edge was found, s.
@@ -67,7 +70,8 @@ pub struct Target {
 impl Target {
     /// This, and then another run that began with what this one had found.
     fn then(&mut self, next: &Self) {
-        let quiet = if next.quiet_seconds >= next.seconds { self.quiet_seconds } else { 0 };
+        let tried = next.seconds.saturating_sub(next.read_seconds);
+        let quiet = if next.quiet_seconds >= tried { self.quiet_seconds } else { 0 };
         self.sum(next);
         self.quiet_seconds = quiet.saturating_add(next.quiet_seconds);
     }
@@ -83,6 +87,7 @@ impl Target {
         self.inputs = self.inputs.saturating_add(other.inputs);
         self.cycles = self.cycles.saturating_add(other.cycles);
         self.seconds = self.seconds.saturating_add(other.seconds);
+        self.read_seconds = self.read_seconds.saturating_add(other.read_seconds);
         self.found = self.found.saturating_add(other.found);
         self.edges = self.edges.max(other.edges);
     }
@@ -170,7 +175,7 @@ mod tests {
     use super::{Record, Sources, Target};
 
     fn ran(seconds: u64, edges: u64, quiet_seconds: u64) -> Target {
-        Target { target: "t".into(), inputs: 10, cycles: 100, seconds, edges, quiet_seconds, found: 0 }
+        Target { target: "t".into(), inputs: 10, cycles: 100, seconds, read_seconds: 0, edges, quiet_seconds, found: 0 }
     }
 
     #[test]
@@ -179,9 +184,16 @@ mod tests {
         record.add(ran(60, 5, 20));
         record.add(ran(60, 5, 60));
         assert_eq!(record.targets, [Target { inputs: 20, cycles: 200, ..ran(120, 5, 80) }]);
+        record.add(Target { read_seconds: 15, ..ran(60, 5, 45) });
+        let quiet = Target { inputs: 30, cycles: 300, read_seconds: 15, ..ran(180, 5, 125) };
+        assert_eq!(record.targets, [quiet], "to read the corpus again breaks no quiet, and adds nothing to it");
         record.add(ran(60, 7, 10));
-        assert_eq!(record.targets, [Target { inputs: 30, cycles: 300, ..ran(180, 7, 10) }], "it grew again");
-        assert_eq!(record.cycles(), 300);
+        assert_eq!(
+            record.targets,
+            [Target { inputs: 40, cycles: 400, read_seconds: 15, ..ran(240, 7, 10) }],
+            "it grew"
+        );
+        assert_eq!(record.cycles(), 400);
     }
 
     #[test]

@@ -152,7 +152,8 @@ fn fuzz(root: &Path, target: &str, request: &Request, heard: &Mutex<Heard>) -> R
         heard.line(&String::from_utf8_lossy(&line), began.elapsed().as_secs());
     }
     child.wait().map_err(ToolError::start("cargo"))?;
-    let (heard, seconds) = (*heard.lock().unwrap_or_else(PoisonError::into_inner), began.elapsed().as_secs());
+    let (heard, second) = (*heard.lock().unwrap_or_else(PoisonError::into_inner), began.elapsed().as_secs());
+    let [seconds, read_seconds, quiet_seconds] = heard.times(second);
     let found: Vec<PathBuf> = artifacts(&artifact_folder).difference(&before).cloned().collect();
     if heard.inputs.is_none() && found.is_empty() {
         return Err(ToolError::Arguments(format!("{target} ended before its time, see {}", log.display())));
@@ -165,8 +166,9 @@ fn fuzz(root: &Path, target: &str, request: &Request, heard: &Mutex<Heard>) -> R
         inputs: heard.inputs.unwrap_or(0),
         cycles: cycles(&tally),
         seconds,
+        read_seconds,
         edges: heard.edges,
-        quiet_seconds: seconds.saturating_sub(heard.grew),
+        quiet_seconds,
         found: u64::try_from(found.len()).unwrap_or(u64::MAX),
     })
 }
