@@ -90,6 +90,27 @@ impl Traffic {
         let empty = |actor: &Actor| Obstacle { body: actor.body, from_ms: u32::MAX, ..Obstacle::standing_car(0.0) };
         self.actors.iter().map(empty).collect()
     }
+
+    /// Those who are there, as they truly are.
+    #[must_use]
+    pub fn others(&self, plant: &Plant) -> Vec<Other> {
+        let all = self.actors.iter().zip(&self.driving).enumerate();
+        all.filter_map(|(number, (actor, driving))| {
+            Some(Other { gap: plant.gap_to(number)?, offset: driving.offset, width: actor.body.width })
+        })
+        .collect()
+    }
+}
+
+/// One of the others, as it truly is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Other {
+    /// How far its rear is ahead of the bus, in m.
+    pub gap: f64,
+    /// Its middle from that of the bus, in m, left positive.
+    pub offset: f64,
+    /// How wide it is, in m.
+    pub width: f64,
 }
 
 /// One cycle towards a goal.

@@ -5,11 +5,22 @@ use crate::cli::Disturb;
 use crate::disturb::page::page;
 use crate::disturb::record::{RECORD, read};
 use crate::disturb::table::table;
-use crate::disturb::{Request, Sources, Tally, campaign};
+use crate::disturb::{Request, Sources, Tally, campaign, single};
 
 pub(super) fn run(arguments: &Disturb) -> Outcome {
     let root = root()?;
     let sealed = config::read_or_default(arguments.config.as_deref())?;
+    if let Some(number) = arguments.run {
+        let single = single(sealed, arguments.seed, number).ok_or("nothing is drawn for this run")?;
+        if let Some(path) = &arguments.json {
+            write(path, &format!("{:#}\n", single.document()))?;
+        }
+        if let Some(path) = &arguments.html {
+            write(path, &single.page()?)?;
+        }
+        print(single.table())?;
+        return Ok(0);
+    }
     let sources = Sources::load(root, &sealed)?;
     let tally = if arguments.check {
         read(&root.join(RECORD))?

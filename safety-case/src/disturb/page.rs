@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::table::{S1, per_1000_km, percent, times};
+use super::table::{S1, first_runs, per_1000_km, percent, times};
 use super::tally::{Tally, Times};
 use crate::number::float;
 use crate::template::render;
@@ -37,6 +37,7 @@ pub fn page(tally: &Tally) -> Result<String, minijinja::Error> {
         .iter()
         .map(|(cause, count)| json!({"cause": cause, "count": count, "example": tally.run_examples.get(cause)}))
         .collect();
+    let first: Vec<Value> = first_runs(tally).map(|(what, text)| json!({"what": what, "value": text})).collect();
     let reaction = &tally.reaction;
     let parts = [
         ("bus", &reaction.bus),
@@ -66,7 +67,7 @@ pub fn page(tally: &Tally) -> Result<String, minijinja::Error> {
         .collect();
     let context = json!({
         "seed": tally.seed, "sources": tally.sources.shipped.chars().take(12).collect::<String>(), "cards": cards,
-        "shares": shares, "kinds": kinds, "run_causes": run_causes, "reactions": reactions, "s1": S1, "rates": rates,
+        "shares": shares, "kinds": kinds, "run_causes": run_causes, "first": first, "reactions": reactions, "s1": S1, "rates": rates,
         "pieces": pieces, "cases": tally.cases, "stops": tally.stops, "hard": tally.hard,
         "collisions": tally.collisions, "hours": format!("{:.1}", float(tally.seconds) / 3600.0),
     });

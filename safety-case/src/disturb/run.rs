@@ -101,6 +101,11 @@ fn count_run(tally: &mut Tally, number: u64, outcome: &Outcome) {
             },
         )]
         .into(),
+        run_numbers: [("collision", outcome.collided), ("level without a cause", outcome.false_triggers > 0)]
+            .into_iter()
+            .filter(|(_, is)| *is)
+            .map(|(what, _)| (what.to_owned(), vec![number]))
+            .collect(),
         load: [outcome.busy.0 / 1000, outcome.busy.1 / 1000],
         lost: outcome.lost,
         ..Tally::default()

@@ -34,6 +34,14 @@ pub fn times(times: &Times) -> String {
     format!("mean {mean:.1}, least {}, half {}, 95 % {}, 99 % {}, most {}", at(0), at(50), at(95), at(99), at(100))
 }
 
+/// What came of runs that somebody may want to see, and the first of them.
+pub fn first_runs(tally: &Tally) -> impl Iterator<Item = (&str, String)> {
+    tally.run_numbers.iter().map(|(what, numbers)| {
+        let numbers: Vec<String> = numbers.iter().map(u64::to_string).collect();
+        (what.as_str(), format!("first in the runs {}; `disturb --run` shows one", numbers.join(", ")))
+    })
+}
+
 /// Everything.
 #[must_use]
 pub fn table(tally: &Tally) -> String {
@@ -53,6 +61,9 @@ pub fn table(tally: &Tally) -> String {
             "  {kind:<38} {:>6} runs, {:>5} with a level, {} without a cause, {} disturbed, {} warned, {} collided",
             runs.runs, runs.levels, runs.false_triggers, runs.disturbed, runs.warned, runs.collisions
         );
+    }
+    for (what, numbers) in first_runs(tally) {
+        let _ = writeln!(text, "    {what}: {numbers}");
     }
     for (cause, count) in &tally.run_causes {
         let example = tally.run_examples.get(cause).map_or("", String::as_str);

@@ -113,6 +113,9 @@ pub struct Tally {
     pub run_causes: BTreeMap<String, u64>,
     /// The first run of each.
     pub run_examples: BTreeMap<String, String>,
+    /// The first runs that ended in a collision, and in which a level began without a cause, by their numbers.
+    #[serde(default)]
+    pub run_numbers: BTreeMap<String, Vec<u64>>,
     /// Reactions.
     pub reaction: Reactions,
     /// Time for which the bus was busy, and was there, in ms.
@@ -147,6 +150,8 @@ pub struct Tally {
 pub const SCHEMA: &str = "supervise-disturb";
 /// So many cases of each are kept.
 pub const CASES: usize = 3;
+/// So many numbers of runs are kept.
+pub const NUMBERS: usize = 12;
 
 /// Adds the counts of one to the other.
 fn add<K: Ord + Clone>(to: &mut BTreeMap<K, u64>, from: &BTreeMap<K, u64>) {
@@ -188,6 +193,12 @@ impl Tally {
             if first(example) < first(ours) {
                 ours.clone_from(example);
             }
+        }
+        for (what, numbers) in &other.run_numbers {
+            let ours = self.run_numbers.entry(what.clone()).or_default();
+            ours.extend(numbers);
+            ours.sort_unstable();
+            ours.truncate(NUMBERS);
         }
         add(&mut self.reaction.bus, &other.reaction.bus);
         add(&mut self.reaction.wait, &other.reaction.wait);
@@ -308,6 +319,7 @@ mod tests {
             wanted: Wanted { runs: 5, days: 3, metres: 100 },
             runs: [("clear road".to_owned(), counted)].into(),
             run_examples: [("Gear Selector".to_owned(), example(runs))].into(),
+            run_numbers: [("collision".to_owned(), (0_u64..12).map(|number| 10 * number + runs).collect())].into(),
             cases: [("queue".to_owned(), vec![format!("day {days}: x"), format!("day {}: y", days + 9)])].into(),
             days,
             ..Tally::default()
@@ -321,7 +333,10 @@ mod tests {
         assert_eq!((whole.all_runs().runs, whole.all_runs().disturbed, whole.days, whole.shards), (5, 2, 3, 1));
         assert_eq!(whole.run_examples.values().next().map(String::as_str), Some("run 2: clear road"));
         assert_eq!(whole.cases["queue"], ["day 1: x", "day 2: x", "day 10: y"]);
-        assert_eq!(Tally::merge(&[two.clone(), one.clone()])?.cases, whole.cases);
+        let numbers = [2, 3, 12, 13, 22, 23, 32, 33, 42, 43, 52, 53];
+        assert_eq!(whole.run_numbers["collision"], numbers, "the first of both parts");
+        let turned = Tally::merge(&[two.clone(), one.clone()])?;
+        assert_eq!((turned.cases, turned.run_numbers), (whole.cases.clone(), whole.run_numbers.clone()));
         assert!(Tally::merge(std::slice::from_ref(&one)).is_err_and(|error| error.contains("1 of 2")));
         assert!(Tally::merge(&[one.clone(), one.clone()]).is_err_and(|error| error.contains("4 runs")));
         let other = Tally { seed: 9, ..two };

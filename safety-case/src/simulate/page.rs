@@ -34,6 +34,6 @@ fn shown(drive: &Driven) -> Result<Value, String> {
     Ok(json!({
         "name": scene.full_name(), "title": scene.title, "description": scene.description, "source": scene.source,
         "requirements": scene.requirements.join(", "), "published": scene.published, "passed": drive.passed(), "word": drive.word(), "known": scene.expected.known,
-        "rows": rows, "level": drive.level.code(), "picture": picture(drive)?,
+        "rows": rows, "level": drive.level.code(), "picture": picture(&drive.curves())?,
     }))
 }

@@ -8,7 +8,7 @@ use plotters::prelude::*;
 use supervisor::{Channel, Kind};
 use supervisor_tests::s1::PUBLISHED;
 
-use super::run::{Driven, Moment, Vetted};
+use super::run::{Moment, Vetted};
 use crate::words;
 
 const WIDE: u32 = 1000;
@@ -19,6 +19,20 @@ const VIOLET: RGBColor = RGBColor(123, 94, 167);
 const THEIRS: RGBColor = RGBColor(176, 120, 40);
 const GRID: RGBColor = RGBColor(230, 234, 240);
 const INK: RGBColor = RGBColor(36, 48, 66);
+
+/// What is drawn of a drive.
+#[derive(Clone, Copy, Debug)]
+pub struct Curves<'a> {
+    /// Its moments, in order of time.
+    pub moments: &'a [Moment],
+    /// What was not passed.
+    pub vetted: &'a [Vetted],
+    /// When S1's 60 m are left, in s, where its published curves stand beside.
+    pub published: Option<f64>,
+    /// How far from its middle the corridor of the supervisor and the way of the bus reach, in m, where the others are shown beside it:
+    /// the first for the middle of another, the second for its near side.
+    pub lane: Option<[f64; 2]>,
+}
 
 struct Line {
     points: Vec<Option<(f64, f64)>>,
@@ -36,8 +50,8 @@ struct Panel {
 ///
 /// # Errors
 /// If it cannot be drawn.
-pub fn picture(drive: &Driven) -> Result<String, String> {
-    let zero = if drive.scene.published { drive.sixty_metres().unwrap_or(0.0) } else { 0.0 };
+pub fn picture(drive: &Curves<'_>) -> Result<String, String> {
+    let zero = drive.published.unwrap_or(0.0);
     let span = span(drive, zero);
     let panels = panels(drive, zero, span);
     let shown = |vetted: &Vetted| vetted.span[1] - zero > span[0] && vetted.span[0] - zero < span[1];
@@ -57,26 +71,27 @@ pub fn picture(drive: &Driven) -> Result<String, String> {
             draw(&upper, panel, span).map_err(|error| error.to_string())?;
             rest = lower;
         }
-        verdicts(&rest, &drive.vetted, &lanes, span, zero).map_err(|error| error.to_string())?;
+        verdicts(&rest, drive.vetted, &lanes, span, zero).map_err(|error| error.to_string())?;
         root.present().map_err(|error| error.to_string())?;
     }
     Ok(svg)
 }
 
 /// What is shown, in s from the zero of the drive: all of it, or S1's approach.
-fn span(drive: &Driven, zero: f64) -> [f64; 2] {
+fn span(drive: &Curves<'_>, zero: f64) -> [f64; 2] {
     let end = drive.moments.last().map_or(1.0, |moment| moment.at);
-    if drive.scene.published { [-2.0, (end - zero).clamp(8.0, 10.0)] } else { [0.0, end.max(1.0)] }
+    let begin = if drive.lane.is_some() { drive.moments.first().map_or(0.0, |moment| moment.at) } else { 0.0 };
+    if drive.published.is_some() { [-2.0, (end - zero).clamp(8.0, 10.0)] } else { [begin, end.max(begin + 1.0)] }
 }
 
-fn panels(drive: &Driven, zero: f64, [from, until]: [f64; 2]) -> Vec<Panel> {
+fn panels(drive: &Curves<'_>, zero: f64, [from, until]: [f64; 2]) -> Vec<Panel> {
     let shown: Vec<&Moment> =
         drive.moments.iter().filter(|moment| (from..=until).contains(&(moment.at - zero))).collect();
     let curve = |read: &dyn Fn(&Moment) -> Option<f64>| -> Vec<Option<(f64, f64)>> {
         shown.iter().map(|moment| read(moment).map(|value| (moment.at - zero, value))).collect()
     };
     let ours = |read: &dyn Fn(&Moment) -> Option<f64>| Line { points: curve(read), colour: BLUE_LINE, width: 2 };
-    let published = drive.scene.published;
+    let published = drive.published.is_some();
     let theirs =
         |points: &[(f64, f64)]| Line { points: points.iter().copied().map(Some).collect(), colour: THEIRS, width: 2 };
     let beside = if published { "; brown: S1" } else { "" };
@@ -129,6 +144,15 @@ fn panels(drive: &Driven, zero: f64, [from, until]: [f64; 2]) -> Vec<Panel> {
         panels.push(Panel { title: format!("Gap ahead [m]{beside}{}", figure(5)), range: [0.0, far], lines: gap });
         panels.push(Panel { title: "Time to collision [s]".to_owned(), range: [0.0, 12.0], lines: vec![collision] });
         panels.push(Panel { title: format!("Level of collision mitigation{beside}"), range: [0.0, 3.3], lines: level });
+    }
+    if let Some([corridor, way]) = drive.lane {
+        let edge = |at: f64, colour| Line { points: vec![Some((from, at)), Some((until, at))], colour, width: 1 };
+        let mut lines = vec![ours(&|moment| moment.offset)];
+        lines.extend(
+            [corridor, -corridor].map(|at| edge(at, VIOLET)).into_iter().chain([way, -way].map(|at| edge(at, THEIRS))),
+        );
+        let title = "Middle of the nearest other beside that of the lane [m]; violet: corridor of the supervisor; brown: bodies overlap";
+        panels.push(Panel { title: title.to_owned(), range: [-4.5, 4.5], lines });
     }
     panels
 }

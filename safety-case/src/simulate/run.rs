@@ -11,6 +11,7 @@ use supervisor_tests::scenario::criteria::{Row, Standing};
 use supervisor_tests::scenario::happens::Happened;
 use supervisor_tests::scenario::run::{Ran, run};
 
+use super::picture::Curves;
 use crate::spread::{Steps, cores, mine, spread};
 
 /// What is wanted.
@@ -57,6 +58,8 @@ pub struct Moment {
     pub collision: Option<f64>,
     /// Level.
     pub level: u8,
+    /// The nearest of the others beside the middle of the lane, in m, where that is told.
+    pub offset: Option<f64>,
 }
 
 /// A stretch in which a channel was not passed.
@@ -115,10 +118,13 @@ impl Driven {
         }
     }
 
-    /// When S1's 60 m are left, in s.
+    /// What is drawn of it.
     #[must_use]
-    pub fn sixty_metres(&self) -> Option<f64> {
-        self.events.iter().find(|event| event.what == "60 m left").map(|event| f64::from(event.at_ms) / 1000.0)
+    pub fn curves(&self) -> Curves<'_> {
+        let sixty_metres = || self.events.iter().find(|event| event.what == "60 m left");
+        let zero = || sixty_metres().map_or(0.0, |event| f64::from(event.at_ms) / 1000.0);
+        let published = self.scene.published.then(zero);
+        Curves { moments: &self.moments, vetted: &self.vetted, published, lane: None }
     }
 }
 
@@ -176,7 +182,8 @@ fn kept(scene: Scene, ran: &Ran) -> Driven {
     }
 }
 
-fn moment(cycle: &Cycle) -> Moment {
+/// What is drawn of a cycle.
+pub(crate) fn moment(cycle: &Cycle) -> Moment {
     let truth = &cycle.truth;
     let near = truth.ahead.filter(|ahead| ahead.gap < 150.0);
     let collision = near.filter(|ahead| ahead.closing > 0.1).map(|ahead| ahead.gap.max(0.0) / ahead.closing);
@@ -187,10 +194,12 @@ fn moment(cycle: &Cycle) -> Moment {
         gap: near.map(|ahead| ahead.gap),
         collision: collision.filter(|collision| *collision <= LONGEST_S),
         level: cycle.answer.status.level.code(),
+        offset: None,
     }
 }
 
-fn vetted(cycles: &[Cycle]) -> Vec<Vetted> {
+/// Where each channel was not passed.
+pub(crate) fn vetted(cycles: &[Cycle]) -> Vec<Vetted> {
     let mut found: Vec<Vetted> = Vec::new();
     for channel in Channel::ALL.iter().copied() {
         let mut open: Option<Vetted> = None;

@@ -76,3 +76,28 @@ fn disturbance_is_counted_in_parts_that_make_the_whole() -> Outcome {
     assert!(half.code == 2 && half.err.contains("1 of 2 parts"), "{}", half.err);
     Ok(())
 }
+
+/// The second test above counts the same runs: what a run came to there it comes to when it is driven alone.
+#[test]
+fn a_run_is_driven_again_and_shown() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let ran = supervise_in(folder.path(), &["disturb", "--runs", "400", "--km", "0", "--json", "all.json"])?;
+    assert_eq!(ran.code, 0, "{}{}", ran.out, ran.err);
+    let all: Value = serde_json::from_str(&std::fs::read_to_string(folder.path().join("all.json"))?)?;
+    let number = all["run_numbers"]["level without a cause"][0].as_u64().ok_or("no level without a cause")?;
+    let numbered = number.to_string();
+    let arguments = ["disturb", "--run", &numbered, "--json", "run.json", "--html", "run.html"];
+    let ran = supervise_in(folder.path(), &arguments)?;
+    assert_eq!(ran.code, 0, "{}{}", ran.out, ran.err);
+    assert!(ran.out.contains(&format!("Run {number} of seed 1")) && ran.out.contains("level 1"), "{}", ran.out);
+    let run: Value = serde_json::from_str(&std::fs::read_to_string(folder.path().join("run.json"))?)?;
+    assert_eq!(run["schema"], "supervise-disturb-run");
+    assert!(run["without_a_cause"].as_u64() > Some(0), "as it was counted");
+    let page = std::fs::read_to_string(folder.path().join("run.html"))?;
+    assert!(
+        page.contains("default-src 'none'") && page.contains("<svg") && page.contains("corridor of the supervisor")
+    );
+    let both = supervise_in(folder.path(), &["disturb", "--run", "1", "--check"])?;
+    assert!(both.code == 2 && both.err.contains("cannot be used with"), "{}", both.err);
+    Ok(())
+}

@@ -18,7 +18,7 @@ use crate::judge::{Counter, Stretch};
 use crate::link::Stamped;
 use crate::plant::{Parameters, Plant};
 use crate::road::Obstacle;
-use crate::traffic::Traffic;
+use crate::traffic::{Other, Traffic};
 
 const AT_20: Script<'static> = after_start![(10_500, Act::Hold(20.0)),];
 const AT_30: Script<'static> = after_start![(10_500, Act::Hold(30.0)),];
@@ -46,7 +46,7 @@ const CAUSE_S: f64 = 5.0;
 
 /// The bus on its way, once for each way to drive.
 #[derive(Clone, Debug)]
-pub struct Prepared(Vec<Bench<'static>>);
+pub struct Prepared(Vec<(&'static str, Bench<'static>)>);
 
 impl Prepared {
     /// Drives it up to where runs begin.
@@ -69,7 +69,7 @@ impl Prepared {
             while bench.now_ms() < START_MS {
                 bench.step(&mut crate::bench::Undisturbed);
             }
-            bench
+            (name, bench)
         };
         Self(DRIVES.into_iter().map(drive).collect())
     }
@@ -78,6 +78,8 @@ impl Prepared {
 /// What came of a run.
 #[derive(Clone, Debug)]
 pub struct Outcome {
+    /// How it drove.
+    pub drive: &'static str,
     /// What it drove into.
     pub kind: Kind,
     /// Everything in which the correct main controller was still short after three cycles, and why.
@@ -108,6 +110,7 @@ struct World {
     acts: Vec<(u32, Act)>,
     done: usize,
     disturbance: Disturbance,
+    others: Vec<Other>,
 }
 
 impl Hooks for World {
@@ -117,6 +120,7 @@ impl Hooks for World {
             self.done += 1;
         }
         self.traffic.vehicle(now_ms, plant);
+        self.others = self.traffic.others(plant);
         self.disturbance.vehicle(now_ms, plant);
     }
 
@@ -132,18 +136,31 @@ impl Hooks for World {
 /// The run of this number. `amount` is what is disturbed.
 #[must_use]
 pub fn run(prepared: &Prepared, amount: Amount, main_seed: u64, number: u64) -> Option<Outcome> {
+    watch(prepared, amount, main_seed, number, &mut |_, _| {})
+}
+
+/// The same run, and somebody who sees each cycle and where the others are in it.
+pub fn watch(
+    prepared: &Prepared,
+    amount: Amount,
+    main_seed: u64,
+    number: u64,
+    see: &mut dyn FnMut(&Cycle, &[Other]),
+) -> Option<Outcome> {
     let seed = seed_of(main_seed, "run", number);
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let (kind, ..) = *Kind::ALL.get(random.random_range(0..Kind::ALL.len()))?;
-    let mut bench = prepared.0.get(random.random_range(0..prepared.0.len()))?.clone();
+    let (drive, mut bench) = prepared.0.get(random.random_range(0..prepared.0.len()))?.clone();
     let periods = [[50, 40], [60, 33], [50, 66], [70, 40]];
     let amount = Amount { periods_ms: periods.get(random.random_range(0..periods.len())).copied(), ..amount };
     let Situation { actors, acts } = situation(kind, START_MS, bench.truth().speed, &mut random);
-    let mut world = World { traffic: Traffic::new(actors), acts, done: 0, disturbance: Disturbance::new(amount, seed) };
+    let (traffic, disturbance, others) = (Traffic::new(actors), Disturbance::new(amount, seed), Vec::new());
+    let mut world = World { traffic, acts, done: 0, disturbance, others };
     let (mut counter, mut stopwatch, mut interventions) = (Counter::default(), Stopwatch::default(), Vec::new());
     let (mut false_triggers, mut collided, mut level, mut before) = (0, false, Level::None, Level::None);
     while bench.now_ms() < START_MS.saturating_add(LENGTH_MS) {
         let cycle = bench.step(&mut world);
+        see(&cycle, &world.others);
         counter.see(&cycle);
         interventions.extend(counter.new_ones());
         stopwatch.see(&cycle, world.disturbance.carried());
@@ -154,7 +171,7 @@ pub fn run(prepared: &Prepared, amount: Amount, main_seed: u64, number: u64) -> 
     }
     let (busy, lost) = world.disturbance.bus().map_or(((0, 0), 0), super::bus::Bus::figures);
     let reactions = stopwatch.found().to_vec();
-    Some(Outcome { kind, interventions, false_triggers, collided, level, reactions, busy, lost })
+    Some(Outcome { drive, kind, interventions, false_triggers, collided, level, reactions, busy, lost })
 }
 
 /// Something in the corridor is near in time.

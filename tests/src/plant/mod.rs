@@ -38,7 +38,7 @@ const SLIP_HOLD_MS: u32 = 300;
 pub const CYCLE_MS: u32 = 10;
 
 /// Half-width of the corridor ahead of the bus, in m: half of its width, and a hand's breadth (own).
-const CORRIDOR_M: f64 = 1.5;
+pub const CORRIDOR_M: f64 = 1.5;
 
 /// The bus, its driver and its road.
 #[derive(Clone, Debug)]
