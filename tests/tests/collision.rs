@@ -141,7 +141,7 @@ fn with_the_steering_angle_unknown_nothing_enters() {
     }
 }
 
-/// FUS-3c, FUS-3e: in the corridor (half-width 1.6 m), and matched or seen three times.
+/// FUS-3c, FUS-3e: in the corridor (half-width 1.8 m), and matched or seen three times.
 #[test]
 fn only_a_valid_obstacle_obliges() {
     for (class, updates, obliges) in [
@@ -155,7 +155,7 @@ fn only_a_valid_obstacle_obliges() {
         (Some(Class::Pedestrian), 1, true),
     ] {
         for (offset, inside) in
-            [(0, true), (160, true), (-160, true), (161, false), (-161, false), (i16::MIN, false), (i16::MAX, false)]
+            [(0, true), (180, true), (-180, true), (181, false), (-181, false), (i16::MIN, false), (i16::MAX, false)]
         {
             let object = RadarObject { updates: Count::new(updates), offset: OffsetCm::new(offset), ..at(2_000) };
             let level = if obliges && inside { Level::Three } else { Level::None };

@@ -31,7 +31,7 @@ fn a_closing_object_on_a_new_track_has_not_gone() {
 /// MIT-4d: levels 1 and 2 end after exactly 0.5 s of not closing, gone, or out of the corridor; level 3 does not.
 #[test]
 fn levels_1_and_2_end_half_a_second_after_the_object_has_gone() {
-    let aside = RadarObject { offset: OffsetCm::new(161), ..at(2_000) };
+    let aside = RadarObject { offset: OffsetCm::new(181), ..at(2_000) };
     let changes: [(&str, Option<RadarObject>); 4] = [
         ("gone", None),
         ("not closing", Some(object(2_000, 0))),

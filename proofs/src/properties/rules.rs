@@ -1,6 +1,6 @@
 //! The rules of all machines: what unknown means (RULE-1), which speed counts (RULE-6), and what a command can do (CMD).
 
-use supervisor_core::{AngleDeciDeg, EpbState, Faults, Gear, Level, Mode, Percent, Signal, Stage};
+use supervisor_core::{AngleDeciDeg, EpbState, Faults, Gear, HighVoltage, Level, Mode, Percent, Signal, Stage};
 
 use super::facts::has_run;
 use super::{Cycle, Property, all, implies};
@@ -33,7 +33,8 @@ pub fn rule_1_unknown_begins_nothing(cycle: &Cycle<'_>) -> bool {
     let begins = |before: bool, after: bool| !before && after;
     let leaves = begins(old.seat.leave, new.seat.leave);
     let parks = begins(old.parking.by_leave, new.parking.by_leave);
-    let shuts = old.high_voltage.stage == Stage::Up && new.high_voltage.stage != Stage::Up;
+    let opening = |machine: &HighVoltage| machine.stage == Stage::OpeningK4;
+    let shuts = begins(opening(&old.high_voltage), opening(&new.high_voltage));
     let (before, after) = (&old.mitigation, &new.mitigation);
     let level = begins(before.one, after.one) || begins(before.two, after.two) || begins(before.three, after.three);
     implies(leaves, cycle.not_parked() && has_run(new.seat.vacant, cycle.config.seat_vacant))

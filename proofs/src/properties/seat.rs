@@ -132,7 +132,7 @@ pub fn seat_10_unknown_obliges_nothing(cycle: &Cycle<'_>) -> bool {
         implies(new.seat.leave, old.seat.leave || frozen)
             && new.seat.vacant <= old.seat.vacant
             && implies(!old.high_voltage.parked.is_running(), !new.high_voltage.parked.is_running())
-            && implies(old.high_voltage.stage == Stage::Up, new.high_voltage.stage == Stage::Up),
+            && implies(new.high_voltage.stage == Stage::OpeningK4, old.high_voltage.stage == Stage::OpeningK4),
     )
 }
 

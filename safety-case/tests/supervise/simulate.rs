@@ -77,22 +77,24 @@ fn disturbance_is_counted_in_parts_that_make_the_whole() -> Outcome {
     Ok(())
 }
 
-/// The second test above counts the same runs: what a run came to there it comes to when it is driven alone.
+/// What a run came to in the campaign it comes to when it is driven alone.
 #[test]
 fn a_run_is_driven_again_and_shown() -> Outcome {
     let folder = tempfile::tempdir()?;
-    let ran = supervise_in(folder.path(), &["disturb", "--runs", "400", "--km", "0", "--json", "all.json"])?;
+    let ran = supervise_in(folder.path(), &["disturb", "--runs", "40", "--km", "0", "--json", "all.json"])?;
     assert_eq!(ran.code, 0, "{}{}", ran.out, ran.err);
     let all: Value = serde_json::from_str(&std::fs::read_to_string(folder.path().join("all.json"))?)?;
-    let number = all["run_numbers"]["level without a cause"][0].as_u64().ok_or("no level without a cause")?;
-    let numbered = number.to_string();
-    let arguments = ["disturb", "--run", &numbered, "--json", "run.json", "--html", "run.html"];
-    let ran = supervise_in(folder.path(), &arguments)?;
+    // "run 32: a pedestrian steps out, at 45.25 s"
+    let example = all["run_examples"]["Warnings WarningObliged"].as_str().ok_or("nobody is warned")?;
+    let (number, rest) = example.strip_prefix("run ").and_then(|rest| rest.split_once(": ")).ok_or("no number")?;
+    let (kind, at) = rest.strip_suffix(" s").and_then(|rest| rest.split_once(", at ")).ok_or("no time")?;
+    let ran = supervise_in(folder.path(), &["disturb", "--run", number, "--json", "run.json", "--html", "run.html"])?;
     assert_eq!(ran.code, 0, "{}{}", ran.out, ran.err);
-    assert!(ran.out.contains(&format!("Run {number} of seed 1")) && ran.out.contains("level 1"), "{}", ran.out);
+    assert!(ran.out.starts_with(&format!("Run {number} of seed 1: {kind}, at ")), "{}", ran.out);
+    let told = |line: &str| line.trim_start().starts_with(at) && line.contains("warnings not passed");
+    assert!(ran.out.lines().any(told), "{example}: {}", ran.out);
     let run: Value = serde_json::from_str(&std::fs::read_to_string(folder.path().join("run.json"))?)?;
-    assert_eq!(run["schema"], "supervise-disturb-run");
-    assert!(run["without_a_cause"].as_u64() > Some(0), "as it was counted");
+    assert_eq!((&run["schema"], &run["situation"]), (&Value::from("supervise-disturb-run"), &Value::from(kind)));
     let page = std::fs::read_to_string(folder.path().join("run.html"))?;
     assert!(
         page.contains("default-src 'none'") && page.contains("<svg") && page.contains("corridor of the supervisor")

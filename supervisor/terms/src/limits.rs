@@ -209,8 +209,8 @@ limits! {
     pedestrian_ttc: Row<Millis, 2> = [4200, 4500], 1000..=10000, "ms", "S1 §3.1.2 (2)", "PCW-1a";
     /// Pedestrian-collision warning: lateral offset.
     pedestrian_offset: OffsetCm = [200], 100..=400, "cm", "S1 §3.1.2 (2), reading a", "PCW-1a";
-    /// Half-width of the corridor.
-    corridor: OffsetCm = [160], 130..=250, "cm", "own (half of 2.55 m and a margin)", "FUS-3e";
+    /// Half-width of the corridor, for the point that the radar gives of an object.
+    corridor: OffsetCm = [180], 130..=250, "cm", "own (where S1 §3.1.2 (1) warns of a car; half of 2.55 m and half a metre of a car)", "FUS-3e";
     /// A measured deceleration beyond this is not plausible.
     decel_plausible: DecelMs2Q11 = [20480], 12288..=40960, "1/2048 m/s²", "own (10 m/s²)", "MIT-6c";
     /// Gap that shall remain.

@@ -15,7 +15,7 @@ pub const LEVEL_GONE_MS: u32 = 500;
 /// Spec MIT-6 (own): no level begins below this speed, in km/h.
 pub const LEVEL_LEAST_SPEED: f64 = 10.0;
 /// Spec FUS-3 (own): half-width of the corridor in cm; updates that make a radar object certain.
-pub const CORRIDOR_CM: u16 = 160;
+pub const CORRIDOR_CM: u16 = 180;
 /// See [`CORRIDOR_CM`].
 pub const CERTAIN_UPDATES: u8 = 3;
 /// S1 §3.1.2 (1): forward-collision warning on below, off above this time to collision in ms; offset in cm.

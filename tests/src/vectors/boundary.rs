@@ -295,7 +295,7 @@ fn road() -> Vector {
             updates: Count::new(20),
         };
         bus.scene.radar.clear();
-        for one in [object(0, 1000), object(179, 1000), object(900, 1200), object(0, -300)] {
+        for one in [object(0, 1000), object(181, 1000), object(900, 1200), object(0, -300)] {
             // Four fit.
             let _ = bus.scene.radar.push(one);
         }

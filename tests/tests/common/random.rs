@@ -280,7 +280,7 @@ pub fn change_scene(dice: &mut Dice<'_>, scene: &mut Scene) {
         let wild = dice.one_in(3);
         let object = RadarObject {
             distance: DistanceCm::new(if wild { dice.half() } else { dice.of(&[0, 100, 2_700, 3_600, 4_399, 5_000]) }),
-            offset: OffsetCm::new(if wild { dice.signed() } else { dice.of(&[0, 160, -161, 199]) }),
+            offset: OffsetCm::new(if wild { dice.signed() } else { dice.of(&[0, 180, -181, 199]) }),
             closing: ClosingCmS::new(if wild { dice.signed() } else { dice.of(&[1_000, 500, 0, -100]) }),
             age: Millis::new(if dice.one_in(8) { dice.word() } else { 50 }),
             updates: Count::new(dice.byte()),

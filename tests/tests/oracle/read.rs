@@ -155,7 +155,7 @@ pub fn must_enter(cycle: &Cycle, level: usize) -> bool {
         && (speed.unknown() || speed.at_least(2_560))
         && angle(&cycle.inputs).is_some_and(|angle| angle < most)
         && objects(cycle).any(|(distance, offset, closing, updates)| {
-            offset < 160
+            offset < 180
                 && updates >= 3
                 && nearer(distance, closing, limit, inclusive)
                 && !enough(deceleration(&cycle.inputs), distance, closing)
@@ -170,7 +170,7 @@ pub fn may_enter(cycle: &Cycle, level: usize) -> bool {
     !slow
         && angle(&cycle.inputs).is_some_and(|angle| angle < most)
         && objects(cycle).any(|(distance, offset, closing, updates)| {
-            offset <= 160 && (updates >= 3 || !cycle.camera.is_empty()) && nearer(distance, closing, limit, inclusive)
+            offset <= 180 && (updates >= 3 || !cycle.camera.is_empty()) && nearer(distance, closing, limit, inclusive)
         })
         && !objects(cycle).all(|(distance, _, closing, _)| closing <= 0 || enough(decel, distance, closing))
 }
@@ -183,7 +183,7 @@ pub fn nothing_closes(cycle: &Cycle) -> bool {
 /// An object in the corridor certainly closes.
 pub fn object_closes(cycle: &Cycle) -> bool {
     perception_known(cycle)
-        && objects(cycle).any(|(_, offset, closing, updates)| offset < 160 && updates >= 3 && closing > 0)
+        && objects(cycle).any(|(_, offset, closing, updates)| offset < 180 && updates >= 3 && closing > 0)
 }
 
 /// The driver may be steering beyond this, 0.1°.
@@ -211,7 +211,7 @@ pub fn may_be_emergency(cycle: &Cycle) -> bool {
 /// PHB-1b permits the full cap for an object: T ≤ 3.2 s, of a radar object in the corridor.
 pub fn must_be_emergency(cycle: &Cycle) -> bool {
     perception_known(cycle)
-        && objects(cycle).any(|(distance, offset, closing, _)| offset < 160 && nearer(distance, closing, 3_200, true))
+        && objects(cycle).any(|(distance, offset, closing, _)| offset < 180 && nearer(distance, closing, 3_200, true))
 }
 /// A deceleration as a fraction of 1/2048 m/s²: numerator and denominator.
 #[derive(Clone, Copy, Debug)]
