@@ -10,6 +10,7 @@
 
 pub mod analysis;
 pub mod argument;
+pub mod built;
 pub mod candump;
 pub mod cli;
 pub mod commands;

@@ -1,6 +1,6 @@
 //! `supervise disturb`.
 
-use super::{FINDINGS, Outcome, config, print, root, write};
+use super::{FINDINGS, Outcome, built_root, config, print, write};
 use crate::cli::Disturb;
 use crate::disturb::page::page;
 use crate::disturb::record::{RECORD, read};
@@ -8,7 +8,7 @@ use crate::disturb::table::table;
 use crate::disturb::{Request, Sources, Tally, campaign, single};
 
 pub(super) fn run(arguments: &Disturb) -> Outcome {
-    let root = root()?;
+    let root = built_root()?;
     let sealed = config::read_or_default(arguments.config.as_deref())?;
     if let Some(number) = arguments.run {
         let single = single(sealed, arguments.seed, number).ok_or("nothing is drawn for this run")?;

@@ -1,6 +1,6 @@
 //! `supervise inject`.
 
-use super::{FINDINGS, Outcome, print, root, write};
+use super::{FINDINGS, Outcome, built_root, print, write};
 use crate::cli::Inject;
 use crate::inject::judge::failed;
 use crate::inject::page::page;
@@ -9,7 +9,7 @@ use crate::inject::table::{summary, table};
 use crate::inject::{List, Matrix, Request, Sources, campaign, rows};
 
 pub(super) fn run(arguments: &Inject) -> Outcome {
-    let root = root()?;
+    let root = built_root()?;
     let list = List::load(&root.join("safety-case/analysis"))?;
     let sources = Sources::load(root)?;
     let matrix = if arguments.check {

@@ -23,6 +23,7 @@ use std::io::{self, Write};
 use std::path::Path;
 use std::process::ExitCode;
 
+use crate::built::fingerprint;
 use crate::cli::{Cli, Command};
 
 /// The analysis or the traceability has findings, or a harness is not proved.
@@ -76,6 +77,19 @@ fn is_broken_pipe(error: &(dyn std::error::Error + 'static)) -> bool {
 /// The root of the workspace.
 fn root() -> Result<&'static Path, &'static str> {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().ok_or("the workspace has no folder")
+}
+
+/// The root of the workspace, for what records a behaviour that is built into this program.
+fn built_root() -> Result<&'static Path, String> {
+    let root = root()?;
+    match fingerprint(root) {
+        Ok(present) if present == env!("BUILT_FROM") => Ok(root),
+        Ok(_) => Err(
+            "this program was built from other sources than those that are here: `cargo run --release` builds it anew"
+                .to_owned(),
+        ),
+        Err(error) => Err(format!("{}: the sources cannot be read: {error}", root.display())),
+    }
 }
 
 /// Writes a file, and its folder if there is none.

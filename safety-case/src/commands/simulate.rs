@@ -1,6 +1,6 @@
 //! `supervise simulate`.
 
-use super::{FINDINGS, Outcome, print, root, write};
+use super::{FINDINGS, Outcome, built_root, print, write};
 use crate::cli::Simulate;
 use crate::inject::Sources;
 use crate::simulate::document::document;
@@ -20,7 +20,7 @@ pub(super) fn run(arguments: &Simulate) -> Outcome {
         Request { seed: arguments.seed, shard: arguments.shard, jobs: arguments.jobs, log: arguments.log.clone() };
     let driven = simulate(&scenes, &request)?;
     if let Some(path) = &arguments.json {
-        write(path, &format!("{:#}\n", document(&driven, arguments.seed, &Sources::load(root()?)?)))?;
+        write(path, &format!("{:#}\n", document(&driven, arguments.seed, &Sources::load(built_root()?)?)))?;
     }
     if let Some(path) = &arguments.html {
         write(path, &page(&driven, arguments.seed)?)?;

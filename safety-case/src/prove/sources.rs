@@ -9,16 +9,9 @@ use quote::ToTokens;
 use sha2::{Digest, Sha256};
 use supervisor::{SEALED_BYTES, Sealed};
 
+use crate::built::SHIPPED;
 use crate::error::{ToolError, file, form, read};
 
-/// Folders of the shipped sources.
-const SHIPPED: [&str; 5] = [
-    "supervisor/terms/src",
-    "supervisor/observe/src",
-    "supervisor/core/src",
-    "supervisor/perceive/src",
-    "supervisor/wire/src",
-];
 /// Properties and harnesses.
 const PROOFS: &str = "proofs/src";
 

@@ -1,5 +1,6 @@
 //! `supervise` from outside: the binary, its files, its exit codes.
 
+mod built;
 mod commands;
 mod common;
 mod evidence;

@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use super::{FINDINGS, NOT_RUN, Outcome, print};
+use super::{FINDINGS, NOT_RUN, Outcome, built_root, print};
 use crate::cli::Prove;
 use crate::error::ToolError;
 use crate::prove::{
@@ -62,8 +62,11 @@ pub(super) fn run(arguments: &Prove) -> Outcome {
 
 impl Gate {
     fn new(arguments: &Prove) -> Result<Self, Box<dyn std::error::Error>> {
-        let own = Path::new(env!("CARGO_MANIFEST_DIR")).parent().ok_or("the workspace has no folder")?;
-        let root = arguments.root.as_deref().unwrap_or(own);
+        // The default configuration is built in.
+        let root = match &arguments.root {
+            Some(root) => root,
+            None => built_root()?,
+        };
         let root = root.canonicalize().map_err(|error| ToolError::File { path: root.to_owned(), error })?;
         let target =
             std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root.join("target"), |folder| root.join(folder));
