@@ -27,7 +27,7 @@ Examples:
   supervise disturb --runs 200 --km 10                   a short look
   supervise disturb --json safety-case/records/disturb.json --html target/disturb.html
   supervise disturb --km 200 --config my.bin             with your numbers, from `supervise config seal`
-  supervise disturb --run 2206 --html target/run.html    one of the runs: what happened, when and where, with curves
+  supervise disturb --run 17659 --html target/run.html   one of the runs: what happened, when and where, with curves
   supervise disturb --shard 1/4 --json part-1.json       one part of four, on a machine of its own
   supervise disturb --merge part-*.json --json all.json  the whole out of all parts
   supervise disturb --check                              runs nothing: the committed record, and whether it is stale
