@@ -59,8 +59,8 @@ pub struct Single {
     pub lane: [f64; 2],
 }
 
-/// Where another can be, and whether it is there.
-type Place<'a> = (&'a str, &'a dyn Fn(&Other) -> bool);
+/// Where another can be, and whether the nearest one is there in a cycle.
+type Place<'a> = (&'a str, &'a dyn Fn(&Cycle, &Other) -> bool);
 
 /// Drives the run of this number.
 #[must_use]
@@ -68,7 +68,7 @@ pub fn single(sealed: Sealed, seed: u64, number: u64) -> Option<Single> {
     let (mut cycles, mut nearest): (Vec<Cycle>, Vec<Option<Other>>) = (Vec::new(), Vec::new());
     let outcome = watch(&Prepared::new(sealed), Amount::TYPICAL, seed, number, &mut |cycle, others| {
         cycles.push(*cycle);
-        nearest.push(others.iter().copied().min_by(|one, other| one.gap.total_cmp(&other.gap)));
+        nearest.push(others.iter().copied().min_by(|one, other| one.gap.abs().total_cmp(&other.gap.abs())));
     })?;
     let config = sealed.intact().unwrap_or(&Config::DEFAULT);
     let corridor = f64::from(config.corridor.raw()) / 100.0;
@@ -86,17 +86,14 @@ pub fn single(sealed: Sealed, seed: u64, number: u64) -> Option<Single> {
         let (channel, why) = (words::channel(stretch.channel), words::reason(*reason).0);
         found.push((stretch.from_ms, format!("{channel} not passed, {} cycles: {why}", stretch.cycles)));
     }
-    let within = |other: &Other, reach: f64| other.offset.abs() <= reach;
     let places: [Place<'_>; 3] = [
-        ("the nearest other reaches into the way of the bus", &|other| within(other, lane[1])),
-        ("its middle is in the corridor of the supervisor", &|other| within(other, lane[0])),
-        ("COLLISION", &|other| within(other, lane[1]) && other.gap <= 0.0),
+        ("something reaches into the way of the bus", &|cycle, _| cycle.truth.ahead.is_some()),
+        ("its middle is in the corridor of the supervisor", &|_, other| other.offset.abs() <= corridor),
+        ("COLLISION", &|cycle, _| cycle.truth.ahead.is_some_and(|ahead| ahead.gap <= 0.0)),
     ];
     for (what, is) in places {
-        let holds = |other: &Option<Other>| other.is_some_and(|other| is(&other));
-        let begins = |pair: &[Option<Other>]| matches!(pair, [before, now] if holds(now) && !holds(before));
-        let at = nearest.windows(2).position(begins).and_then(|before| cycles.get(before + 1));
-        found.extend(at.map(|cycle| (cycle.now_ms, what.to_owned())));
+        let first = cycles.iter().zip(&nearest).find(|(cycle, other)| other.is_some_and(|other| is(cycle, &other)));
+        found.extend(first.map(|(cycle, _)| (cycle.now_ms, what.to_owned())));
     }
     found.sort_by_key(|(at_ms, _)| *at_ms);
     let row = |(at_ms, what): (u32, String)| {
