@@ -151,7 +151,7 @@ fn panels(drive: &Curves<'_>, zero: f64, [from, until]: [f64; 2]) -> Vec<Panel> 
         lines.extend(
             [corridor, -corridor].map(|at| edge(at, VIOLET)).into_iter().chain([way, -way].map(|at| edge(at, THEIRS))),
         );
-        let title = "Middle of the nearest other beside that of the lane [m]; violet: corridor of the supervisor; brown: bodies overlap";
+        let title = "Middle of the nearest other beside that of the lane [m]; violet: corridor of the supervisor; brown: in the way of the bus";
         panels.push(Panel { title: title.to_owned(), range: [-4.5, 4.5], lines });
     }
     panels
