@@ -71,7 +71,9 @@ impl Target {
     /// This, and then another run that began with what this one had found.
     fn then(&mut self, next: &Self) {
         let tried = next.seconds.saturating_sub(next.read_seconds);
-        let quiet = if next.quiet_seconds >= tried { self.quiet_seconds } else { 0 };
+        // More edges without growth: somebody put inputs into its corpus between, which find what this one had not.
+        let same = next.quiet_seconds >= tried && next.edges <= self.edges;
+        let quiet = if same { self.quiet_seconds } else { 0 };
         self.sum(next);
         self.quiet_seconds = quiet.saturating_add(next.quiet_seconds);
     }
@@ -193,7 +195,10 @@ mod tests {
             [Target { inputs: 40, cycles: 400, read_seconds: 15, ..ran(240, 7, 10) }],
             "it grew"
         );
-        assert_eq!(record.cycles(), 400);
+        record.add(ran(60, 9, 60));
+        let grown = Target { inputs: 50, cycles: 500, read_seconds: 15, ..ran(300, 9, 60) };
+        assert_eq!(record.targets, [grown], "its corpus grew between");
+        assert_eq!(record.cycles(), 500);
     }
 
     #[test]
