@@ -42,7 +42,7 @@ fn the_oracle_agrees() {
     assert_eq!(reached.modes_missing(), Vec::<String>::new());
 }
 
-/// What a fuzzer reports as vetted is what it vetted, and it keeps nothing else.
+/// SELF-2a: what a fuzzer reports as vetted is what it vetted, and it keeps nothing else.
 #[test]
 fn a_fuzzer_counts_every_cycle() {
     let (mut all, mut counted) = (Reached::default(), Reached::only_cycles());
