@@ -108,12 +108,12 @@ fn named_mistakes(shared: &Shared<'_>) -> Outcome {
         shared.judged().filter(|(_, state)| state.is_proved()).map(|(harness, _)| harness.name.clone()).collect();
     let mut changed = Vec::new();
     for finding in mistakes::check(&list, &record, root, &shared.present.sources, &proved)? {
-        match finding {
-            mistakes::Finding::Stale(count) => changed.push(format!("sources of {count} planted mistakes")),
-            mistakes::Finding::Drawn(ran, count) => {
-                changed.push(format!("sources of {} of {count} drawn mistakes", count.saturating_sub(ran)));
-            }
-            other => standing.open.push(other.to_string()),
+        if let mistakes::Finding::Stale(count) = finding {
+            changed.push(format!("sources of {count} planted mistakes"));
+        } else if let mistakes::Finding::Drawn(ran, count) = finding {
+            changed.push(format!("sources of {} of {count} drawn mistakes", count.saturating_sub(ran)));
+        } else {
+            standing.open.push(finding.to_string());
         }
     }
     standing.state = State::of(changed);
