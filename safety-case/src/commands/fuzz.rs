@@ -6,11 +6,6 @@ use crate::fuzz::{RECORD, Record, Request, Sources, TARGETS, Target, available, 
 use crate::number::grouped;
 use crate::spread::cores;
 
-/// Vetted cycles that the design asks for, all targets together.
-const CYCLES: u64 = 1_000_000_000;
-/// For so long no new edge, for each target, s.
-const QUIET: u64 = 1_800;
-
 pub(super) fn run(arguments: &Fuzz) -> Outcome {
     let root = root()?;
     let (path, sources) = (root.join(RECORD), Sources::load(root)?);
@@ -99,15 +94,7 @@ fn missing(record: &Record, sources: &Sources) -> Outcome {
     } else if record.sources.parsers != sources.parsers {
         findings.push("STALE: the parsers of the host changed since".to_owned());
     }
-    if record.cycles() < CYCLES {
-        findings.push(format!("{} of {} cycles", grouped(record.cycles()), grouped(CYCLES)));
-    }
-    for name in TARGETS {
-        let quiet = record.targets.iter().find(|target| target.target == name).map_or(0, |target| target.quiet_seconds);
-        if quiet < QUIET {
-            findings.push(format!("{name}: no new edge for {quiet} s; {QUIET} s are asked for"));
-        }
-    }
+    findings.extend(record.short());
     for finding in &findings {
         print(format_args!("{finding}\n"))?;
     }

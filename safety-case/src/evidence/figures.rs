@@ -176,8 +176,12 @@ fn attacks(standings: &[Standing], claims: usize) -> String {
 }
 
 fn fuzzed(standing: &Standing) -> String {
+    let short = match standing.open.as_slice() {
+        [] => "both are shown".to_owned(),
+        open => format!("**short of that** is {}", open.join(", ")),
+    };
     format!(
-        "{} vetted cycles in {} inputs, {} of them broke something; the design asks for a billion cycles, and for half an hour without a new edge of each target, which is not shown yet where `fuzz --check` says so",
+        "{} vetted cycles in {} inputs, {} of them broke something; the design asks for a billion cycles, and for half an hour without a new edge of each target: {short}",
         sum(standing, ".cycles"),
         sum(standing, ".inputs"),
         sum(standing, ".found"),

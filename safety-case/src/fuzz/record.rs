@@ -5,6 +5,7 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use crate::error::{ToolError, form, write};
+use crate::number::grouped;
 use crate::prove::{stepped, tokens};
 
 /// Where it stands.
@@ -12,6 +13,11 @@ pub const RECORD: &str = "safety-case/records/fuzz.json";
 
 /// The targets, in the order in which they run.
 pub const TARGETS: [&str; 5] = ["command_stream", "differential", "wire_bytes", "candump_log", "dbc_map"];
+
+/// Vetted cycles that the design asks for, all targets together.
+const CYCLES: u64 = 1_000_000_000;
+/// For so long no new edge, for each target, s.
+const QUIET: u64 = 1_800;
 
 /// What makes the inputs and judges the cycles.
 const JUDGES: [&str; 5] =
@@ -165,6 +171,20 @@ impl Record {
         }
     }
 
+    /// What is short of the aim of the design.
+    #[must_use]
+    pub fn short(&self) -> Vec<String> {
+        let few = self.cycles() < CYCLES;
+        let cycles = few.then(|| format!("{} of {} cycles", grouped(self.cycles()), grouped(CYCLES)));
+        let target = |name| match self.targets.iter().find(|target| target.target == name) {
+            None => Some(format!("{name}: not run")),
+            Some(Target { quiet_seconds: quiet, .. }) => {
+                (*quiet < QUIET).then(|| format!("{name}: no new edge for {quiet} s; {QUIET} s are asked for"))
+            }
+        };
+        cycles.into_iter().chain(TARGETS.into_iter().filter_map(target)).collect()
+    }
+
     /// Cycles of all targets.
     #[must_use]
     pub fn cycles(&self) -> u64 {
@@ -174,7 +194,7 @@ impl Record {
 
 #[cfg(test)]
 mod tests {
-    use super::{Record, Sources, Target};
+    use super::{CYCLES, QUIET, Record, Sources, TARGETS, Target, grouped};
 
     fn ran(seconds: u64, edges: u64, quiet_seconds: u64) -> Target {
         Target { target: "t".into(), inputs: 10, cycles: 100, seconds, read_seconds: 0, edges, quiet_seconds, found: 0 }
@@ -211,6 +231,24 @@ mod tests {
         assert_eq!(record.targets, [Target { inputs: 20, cycles: 200, ..ran(120, 6, 20) }]);
         part.sources.shipped = "other".into();
         assert!(record.merge(part).is_err());
+    }
+
+    #[test]
+    fn a_target_that_did_not_run_and_one_that_still_grows_are_short_of_the_aim() {
+        let mut record = Record::default();
+        for name in TARGETS.into_iter().filter(|name| *name != "dbc_map") {
+            record.add(Target { target: name.into(), cycles: CYCLES / 4, ..ran(2 * QUIET, 5, QUIET) });
+        }
+        assert_eq!(record.short(), ["dbc_map: not run"]);
+        record.add(Target { target: "dbc_map".into(), ..ran(2 * QUIET, 5, QUIET - 1) });
+        assert_eq!(record.short(), ["dbc_map: no new edge for 1799 s; 1800 s are asked for"]);
+        record.add(Target { target: "dbc_map".into(), ..ran(10, 5, 10) });
+        assert!(record.short().is_empty());
+        record.targets.retain(|target| target.target != "differential");
+        assert_eq!(
+            record.short(),
+            [format!("{} of {} cycles", grouped(750_000_200), grouped(CYCLES)), "differential: not run".into()]
+        );
     }
 
     #[test]

@@ -106,13 +106,17 @@ fn named_mistakes(shared: &Shared<'_>) -> Outcome {
     }
     let proved: BTreeSet<String> =
         shared.judged().filter(|(_, state)| state.is_proved()).map(|(harness, _)| harness.name.clone()).collect();
+    let drawn: Vec<_> = record.drawn.mistakes.iter().filter(|entry| entry.outcome.is_mistake()).collect();
     let mut changed = Vec::new();
     for finding in mistakes::check(&list, &record, root, &shared.present.sources, &proved)? {
         if let mistakes::Finding::Stale(count) = finding {
             changed.push(format!("sources of {count} planted mistakes"));
-        } else if let mistakes::Finding::Drawn(ran, count) = finding {
-            changed.push(format!("sources of {} of {count} drawn mistakes", count.saturating_sub(ran)));
         } else {
+            if let mistakes::Finding::Drawn(current, _) = finding
+                && current < drawn.len()
+            {
+                changed.push(format!("sources of {} drawn mistakes", drawn.len().saturating_sub(current)));
+            }
             standing.open.push(finding.to_string());
         }
     }
@@ -122,7 +126,6 @@ fn named_mistakes(shared: &Shared<'_>) -> Outcome {
     standing.figure("named", list.mistake.len(), "named mistakes");
     standing.figure("caught", caught, "caught by a proof alone");
     standing.figure("surviving", surviving, "that change nothing that goes out, and say why");
-    let drawn: Vec<_> = record.drawn.mistakes.iter().filter(|entry| entry.outcome.is_mistake()).collect();
     standing.figure("drawn", drawn.len(), "drawn ones that ran");
     let caught = drawn.iter().filter(|entry| entry.outcome.is_caught()).count();
     standing.figure("drawn_caught", caught, "of these caught by a proof alone");

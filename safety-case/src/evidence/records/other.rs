@@ -12,6 +12,7 @@ use super::{SCENARIOS, Standing, State};
 use crate::disturb::Tally;
 use crate::disturb::tally::quantile;
 use crate::error::{ToolError, form, read};
+use crate::fuzz;
 use crate::inject::Sources;
 use crate::prove::shipped;
 
@@ -19,11 +20,12 @@ pub(super) fn fuzz(root: &Path) -> Result<Standing, ToolError> {
     let mut standing = Standing::new(
         "fuzz",
         "Fuzzing campaigns",
-        "safety-case/records/fuzz.json",
+        fuzz::RECORD,
         "supervise fuzz",
         "Anything by itself: totals say for how long nothing was found.",
     );
     fill(root, &mut standing)?;
+    standing.open.extend(fuzz::Record::load(&root.join(fuzz::RECORD))?.short());
     Ok(standing)
 }
 
