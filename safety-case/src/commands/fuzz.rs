@@ -1,5 +1,6 @@
 //! `supervise fuzz`.
 
+use super::hold::Held;
 use super::{FINDINGS, NOT_RUN, Outcome, print, root, telling};
 use crate::cli::Fuzz;
 use crate::fuzz::{RECORD, Record, Request, Sources, TARGETS, Target, available, run as fuzz};
@@ -40,11 +41,15 @@ pub(super) fn run(arguments: &Fuzz) -> Outcome {
             & 0xFFFF_FFFF,
         jobs: arguments.jobs.unwrap_or_else(cores),
     };
+    // One target may run beside another, but not beside itself: both would write the same corpus and count the same cycles.
+    let held = request.targets.iter().map(|target| Held::at_once(root, &format!("fuzz {target}")));
+    let _held = held.collect::<Result<Vec<_>, _>>()?;
     let ran = telling(|say| fuzz(root, &request, say))?;
     if Sources::load(root)? != sources {
         return Err("the sources have changed while this ran: nothing is recorded".into());
     }
     let found: u64 = ran.iter().map(|target| target.found).sum();
+    let _turn = Held::in_turn(root, "fuzz record")?;
     let (mut record, path) = match arguments.shard {
         // As it is now: another run may have written it meanwhile.
         None => (Record::load(&path)?.for_sources(&sources), path),

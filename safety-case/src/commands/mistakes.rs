@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
+use super::hold::Held;
 use super::{FINDINGS, NOT_RUN, Outcome, print, root, telling};
 use crate::cli::Mistakes;
 use crate::error::ToolError;
@@ -28,6 +29,7 @@ pub(super) fn run(arguments: &Mistakes) -> Outcome {
             jobs: arguments.jobs.max(1),
             again: arguments.again,
         };
+        let _held = Held::at_once(root, "mistakes")?;
         telling(|say| plant(root, &request, &Kani, say))?;
     }
     show(root, arguments)

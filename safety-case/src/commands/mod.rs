@@ -8,6 +8,7 @@ mod disturb;
 mod drives;
 mod evidence;
 mod fuzz;
+mod hold;
 mod inject;
 mod limits;
 mod mistakes;

@@ -3,6 +3,7 @@
 use std::path::Path;
 use std::time::Duration;
 
+use super::hold::Held;
 use super::{FINDINGS, NOT_RUN, Outcome, print, root, telling};
 use crate::cli::Mutants;
 use crate::mistakes::{Shard, available};
@@ -19,6 +20,7 @@ pub(super) fn run(arguments: &Mutants) -> Outcome {
             )?;
             return Ok(NOT_RUN);
         }
+        let _held = Held::at_once(root, "mutants")?;
         telling(|say| prove(root, say))?;
         return show(root);
     }
@@ -37,6 +39,7 @@ pub(super) fn run(arguments: &Mutants) -> Outcome {
             within: arguments.within.map(|minutes| Duration::from_secs(minutes.saturating_mul(60))),
             longest: Duration::from_secs(arguments.longest),
         };
+        let _held = Held::at_once(root, "mutants")?;
         telling(|say| mutate(root, request, say))?;
     }
     show(root)
