@@ -1,7 +1,7 @@
 //! One run of a kind at a time: two would change the same copies, and write the same record.
 
-use std::fs::{File, TryLockError};
-use std::path::Path;
+use std::fs::{self, File, TryLockError};
+use std::path::{Path, PathBuf};
 
 use crate::error::{ToolError, file};
 
@@ -40,16 +40,17 @@ impl Held {
     }
 }
 
-fn open(root: &Path, what: &str) -> Result<(File, std::path::PathBuf), ToolError> {
+/// Under the root, wherever cargo builds: the record that two runs would write stands there, too.
+fn open(root: &Path, what: &str) -> Result<(File, PathBuf), ToolError> {
     let folder = root.join("target/held");
-    std::fs::create_dir_all(&folder).map_err(|error| file(&folder, error))?;
+    fs::create_dir_all(&folder).map_err(|error| file(&folder, error))?;
     let path = folder.join(what.replace(' ', "-"));
     Ok((File::create(&path).map_err(|error| file(&path, error))?, path))
 }
 
 #[cfg(test)]
 mod tests {
-    use super::Held;
+    use super::{Held, fs};
 
     #[test]
     fn a_second_run_is_refused_until_the_first_has_ended() {
@@ -69,7 +70,7 @@ mod tests {
     #[test]
     fn where_no_file_can_be_made_it_says_where() {
         let Ok(folder) = tempfile::tempdir() else { unreachable!("there is a temporary folder") };
-        assert!(std::fs::write(folder.path().join("target"), "").is_ok());
+        assert!(fs::write(folder.path().join("target"), "").is_ok());
         for held in [Held::at_once(folder.path(), "mutants"), Held::in_turn(folder.path(), "mutants")] {
             let text = held.map(drop).map_err(|error| error.to_string());
             assert!(text.is_err_and(|text| text.contains("target")));
