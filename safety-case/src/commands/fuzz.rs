@@ -32,8 +32,13 @@ pub(super) fn run(arguments: &Fuzz) -> Outcome {
         return Ok(NOT_RUN);
     }
     let (shard, _) = arguments.shard.unwrap_or((1, 1));
-    let targets =
-        if arguments.targets.is_empty() { TARGETS.map(str::to_owned).to_vec() } else { arguments.targets.clone() };
+    let mut targets = arguments.targets.clone();
+    // Named twice is still one.
+    targets.sort_unstable();
+    targets.dedup();
+    if targets.is_empty() {
+        targets = TARGETS.map(str::to_owned).to_vec();
+    }
     let request = Request {
         targets,
         seconds: arguments.seconds,
