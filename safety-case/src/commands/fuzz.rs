@@ -32,15 +32,8 @@ pub(super) fn run(arguments: &Fuzz) -> Outcome {
         return Ok(NOT_RUN);
     }
     let (shard, _) = arguments.shard.unwrap_or((1, 1));
-    let mut targets = arguments.targets.clone();
-    // Named twice is still one.
-    targets.sort_unstable();
-    targets.dedup();
-    if targets.is_empty() {
-        targets = TARGETS.map(str::to_owned).to_vec();
-    }
     let request = Request {
-        targets,
+        targets: each_once(&arguments.targets),
         seconds: arguments.seconds,
         seed: arguments.seed.wrapping_add(u64::try_from(shard)?.saturating_sub(1).wrapping_mul(0x9E37_79B9))
             & 0xFFFF_FFFF,
@@ -73,6 +66,12 @@ pub(super) fn run(arguments: &Fuzz) -> Outcome {
         print(format_args!("FOUND {found}: now in fuzz/corpus as regression-…; cargo test --test corpus shows it\n"))?;
     }
     Ok(if found > 0 { FINDINGS } else { 0 })
+}
+
+/// The targets that are named, each once, in the order in which they run; all if none is.
+fn each_once(named: &[String]) -> Vec<String> {
+    let runs = |target: &&str| named.is_empty() || named.iter().any(|name| name == target);
+    TARGETS.into_iter().filter(runs).map(str::to_owned).collect()
 }
 
 fn show(record: &Record) -> Result<(), std::io::Error> {
@@ -109,4 +108,16 @@ fn missing(record: &Record, sources: &Sources) -> Outcome {
         print(format_args!("{finding}\n"))?;
     }
     Ok(if findings.is_empty() { 0 } else { FINDINGS })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{TARGETS, each_once};
+
+    #[test]
+    fn a_target_that_is_named_twice_runs_once() {
+        let named = ["dbc_map", "wire_bytes", "dbc_map"].map(str::to_owned);
+        assert_eq!(each_once(&named), ["wire_bytes", "dbc_map"]);
+        assert_eq!(each_once(&[]), TARGETS);
+    }
 }
